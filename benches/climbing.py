@@ -18,7 +18,7 @@ STRIDE_M = 0.08
 RUN_M = 0.6
 """Level ground before the first and behind the last edge."""
 
-Footstep = tuple[str, float, float, float, float, float, float]
+Footstep = tuple[str, float, float, float, float, float, float, str]
 Pose = tuple[float, float, float]
 
 
@@ -94,7 +94,7 @@ class Stand:
             min(HALF_SOLE_M, self.tread.back - self.x),
         )
         place = (cos * dx + sin * dy, cos * dy - sin * dx, -robot[2])
-        return (side, *place, self.tread.height - ground, *bears)
+        return (side, *place, self.tread.height - ground, *bears, "careful")
 
 
 def stands(treads: list[Tread]) -> list[Stand]:

@@ -82,10 +82,11 @@ def test_a_behaviour_is_given_the_situation_and_its_word_is_done() -> None:
     assert episode.pilot.steps_taken == 0
 
 
-def test_footsteps_of_a_behaviour_are_taken_one_by_one() -> None:
+@pytest.mark.parametrize("manner", ["careful", "walked"])
+def test_footsteps_of_a_behaviour_are_taken_one_by_one(manner: str) -> None:
     listed = (
-        Footstep("left", 0.04, 0.042, 0.0, 0.0, -0.05, 0.05),
-        Footstep("right", 0.04, -0.042, 0.0, 0.0, -0.05, 0.05),
+        Footstep("left", 0.04, 0.042, 0.0, 0.0, -0.05, 0.05, manner),
+        Footstep("right", 0.04, -0.042, 0.0, 0.0, -0.05, 0.05, manner),
     )
 
     class Marching:
@@ -107,6 +108,7 @@ def test_footsteps_of_a_behaviour_are_taken_one_by_one() -> None:
     assert part.done
     assert episode.pilot.steps_taken == episode.pilot.stepping.landed == 2
     assert pose[0] == pytest.approx(0.04, abs=0.015)
+    assert (step.time_ns < 3_200_000_000) == (manner == "walked")
 
 
 def test_a_localizer_is_asked_at_every_tick_and_told_of_every_frame() -> None:
@@ -304,6 +306,7 @@ class Miscounting(Meadow.View):
         ("behaviour", Decision("x", velocity=(np.nan, 0.0, 0.0)), "behaviour: .*finite"),
         ("behaviour", Decision("x", gaze=(np.inf, 0.0)), "behaviour: .*finite"),
         ("behaviour", marching(side="middle"), "behaviour: .*left or right, got middle"),
+        ("behaviour", marching(manner="hopped"), "behaviour: .*walked or careful, got hopped"),
         ("behaviour", marching(x=np.nan), "behaviour: .*footsteps must be finite"),
         ("behaviour", marching(bearing_to=-0.06), "behaviour: .*bearing_from must be below"),
         ("behaviour", marching((0.1, 0.0, 0.0)), "behaviour: .*velocity must be None"),

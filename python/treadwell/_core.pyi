@@ -73,7 +73,7 @@ _Point = tuple[float, float, float]
 _Sole = tuple[float, float, float, tuple[float, float]]
 _Edge = tuple[_Point, _Point]
 _Fit = tuple[int, float, float]
-_Footstep = tuple[str, float, float, float, float, float, float]
+_Footstep = tuple[str, float, float, float, float, float, float, str]
 
 def components() -> list[tuple[str, str, str, str | None]]: ...
 def distances(blocked: NDArray[np.bool_], /) -> NDArray[np.float32]: ...

@@ -58,7 +58,7 @@ class Step:
         estimate: what it believes.
         command: what it told its motors.
         state: name of the behaviour's state.
-        footsteps: careful steps that its feet are told to take, in the robot's frame as it was
+        footsteps: steps that its feet are told to take, in the robot's frame as it was
             when they were listed first; empty while it walks or stands.
         outcome: what it declares: `goal_reached`, `refused` or None.
         reason: why it refuses.

@@ -121,7 +121,11 @@ class Planner(Protocol):
 
 
 class Footstep(NamedTuple):
-    """One careful step: straight up, over, and straight down onto what may be higher or lower.
+    """One step of a list.
+
+    A `careful` one goes straight up, over, and straight down onto what may be higher or lower; a
+    `walked` one goes as the robot walks, which is faster, where the ground is level and no farther
+    away than the robot walks, else carefully.
 
     Attributes:
         side: foot that moves, `left` or `right`.
@@ -131,6 +135,7 @@ class Footstep(NamedTuple):
         height: m, of the surface there above the robot's ground then.
         bearing_from: m forward of the sole's centre: where the part that bears load begins.
         bearing_to: m forward of the sole's centre: where it ends; the rest overhangs an edge.
+        manner: `careful` or `walked`.
     """
 
     side: str
@@ -140,6 +145,7 @@ class Footstep(NamedTuple):
     height: float
     bearing_from: float
     bearing_to: float
+    manner: str = "careful"
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,7 @@
 //! What the walker is told to do.
 
 use geometry::PlanarPose;
+use planning::footsteps::StepManner;
 use robot::Side;
 
 /// Walking velocity in the robot's frame; the walker keeps it within what the gait can do.
@@ -23,11 +24,14 @@ pub struct Gaze {
     pub down_rad: f64,
 }
 
-/// One careful step of a list: straight up, over and straight down onto a surface that may be higher or lower.
+/// One step of a list.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Footstep {
     /// Foot that moves.
     pub side: Side,
+    /// How it goes: carefully, straight up, over and straight down onto a surface that may be higher or lower; or as the robot walks,
+    /// which is faster. A step that is to be walked but leads to another level, or farther than the robot walks, is taken carefully.
+    pub manner: StepManner,
     /// Where the centre of its sole is put, relative to the robot's frame when the list was given.
     pub pose: PlanarPose,
     /// Height of the surface there above the robot's ground then, m.
@@ -50,7 +54,7 @@ pub enum Misstep {
 pub struct Stepping {
     /// Steps of the present or the last list that landed; 0 from the tick on in which the walker takes a new list.
     pub landed: usize,
-    /// How much higher than told the last one landed, m, by joints and foot force.
+    /// How much higher than told the last one landed, m, by joints and foot force; 0 where a walked one carried nothing yet.
     pub height_error_m: f64,
     /// Set when a step was taken back and the list was given up; until the next list.
     pub misstep: Option<Misstep>,
@@ -82,8 +86,10 @@ pub enum Motion {
     ///
     /// A list is new in the first tick after any other motion, and when it differs from a list that is over while the robot
     /// stands; it counts from the robot's frame and ground of that tick. One that differs while another is on is left alone until
-    /// that is over; another motion ends it with the step under way. Out of a walk the robot comes to stand first. A list with a
-    /// number that is none is not begun. Steps farther than the gait's `climb_forward` and `climb_rise` are shortened to that.
+    /// that is over, unless it begins with the same steps up to the one under way, which then goes on as the new one says: longer,
+    /// shorter, or with other steps behind that. One that is no more than a beginning of what was taken ends with the step under way,
+    /// as another motion ends it. Out of a walk the robot comes to stand first. A list with a number that is none is not begun.
+    /// Steps farther than the gait's `climb_forward` and `climb_rise` are shortened to that.
     Footsteps(Vec<Footstep>),
 }
 

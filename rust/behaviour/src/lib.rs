@@ -14,6 +14,7 @@ pub use command::{Arms, Command, Footstep, Gaze, Misstep, Motion, Stepping, Velo
 pub use decision::{Behaviour, BehaviourError, Decision, Outcome, Situation, SoleAt};
 pub use footsteps::{Footsteps, SteppingConfig};
 pub use part::{BehaviourNeeds, BehaviourPart};
+pub use planning::footsteps::StepManner;
 pub use walking::{WalkingBehaviour, WalkingConfig};
 
 /// The behaviours that come with the crate: a new one is a file or folder beside these, and its lines here.

@@ -1,6 +1,6 @@
 //! Stairs, climbs and footsteps as Python sees them: frozen, map frame, metres and radians.
 
-use behaviour::{Footstep, Misstep, Motion, Stepping};
+use behaviour::{Footstep, Misstep, Motion, StepManner, Stepping};
 use geometry::{Map, PlanarPose, Point};
 use planning::{Climb, Step};
 use pyo3::prelude::*;
@@ -23,8 +23,8 @@ fn flat_fit(fit: EdgeFit) -> FlatFit {
     (fit.frames, fit.place_sigma_m, fit.heading_sigma_rad)
 }
 
-/// (side, x m, y m, yaw rad, height m, bearing from m, bearing to m): `treadwell.protocols.Footstep`.
-pub(crate) type FlatFootstep = (String, f64, f64, f64, f64, f64, f64);
+/// (side, x m, y m, yaw rad, height m, bearing from m, bearing to m, manner): `treadwell.protocols.Footstep`.
+pub(crate) type FlatFootstep = (String, f64, f64, f64, f64, f64, f64, String);
 
 /// The steps that the feet are told to take; empty where they are told something else.
 pub(crate) fn flat_footsteps(motion: &Motion) -> Vec<FlatFootstep> {
@@ -35,16 +35,21 @@ pub(crate) fn flat_footsteps(motion: &Motion) -> Vec<FlatFootstep> {
 }
 
 fn flat_footstep(step: &Footstep) -> FlatFootstep {
-    let side = side_name(step.side).to_owned();
+    let (side, manner) = (
+        side_name(step.side).to_owned(),
+        step.manner.name().to_owned(),
+    );
     let (PlanarPose { x_m, y_m, yaw_rad }, [from_m, to_m]) = (step.pose, step.bearing_m);
-    (side, x_m, y_m, yaw_rad, step.height_m, from_m, to_m)
+    let height_m = step.height_m;
+    (side, x_m, y_m, yaw_rad, height_m, from_m, to_m, manner)
 }
 
 /// A footstep that Python lists.
 pub(crate) fn footstep(flat: FlatFootstep) -> Result<Footstep, String> {
-    let (side, x_m, y_m, yaw_rad, height_m, from_m, to_m) = flat;
+    let (side, x_m, y_m, yaw_rad, height_m, from_m, to_m, manner) = flat;
     Ok(Footstep {
         side: self::side(&side)?,
+        manner: self::manner(&manner)?,
         pose: PlanarPose { x_m, y_m, yaw_rad },
         height_m,
         bearing_m: [from_m, to_m],
@@ -66,6 +71,15 @@ pub(crate) fn side(name: &str) -> Result<Side, String> {
         "right" => Ok(Side::Right),
         other => Err(format!("a side must be left or right, got {other}")),
     }
+}
+
+/// How a step is taken, as Python names it.
+fn manner(name: &str) -> Result<StepManner, String> {
+    let known = [StepManner::Walked, StepManner::Careful];
+    known
+        .into_iter()
+        .find(|manner| manner.name() == name)
+        .ok_or_else(|| format!("a footstep's manner must be walked or careful, got {name}"))
 }
 
 /// The stairs that are seen or remembered.

@@ -77,8 +77,8 @@ impl PyWalker {
     }
 
     /// One control tick: positions (n,) rad, velocities (n,) rad/s and torques (n,) N m by joint order. `motion` is
-    /// (x m/s, y m/s, yaw rad/s), or a list of footsteps (side, x m, y m, yaw rad, height m, bearing from m, bearing to m), or None
-    /// to stand; the head looks `pan` rad to the left and `down` rad below the horizon.
+    /// (x m/s, y m/s, yaw rad/s), or a list of footsteps (side, x m, y m, yaw rad, height m, bearing from m, bearing to m, manner), or
+    /// None to stand; the head looks `pan` rad to the left and `down` rad below the horizon.
     #[pyo3(signature = (observation, motion, pan=0.0, down=0.0))]
     fn step<'py>(
         &mut self,

@@ -43,11 +43,11 @@ impl Gait {
                 let before_s = *elapsed_s;
                 *elapsed_s += passed_s;
                 let over = *elapsed_s >= *duration_s;
-                if swing.manner.is_listed() {
+                if swing.manner.is_careful() {
                     self.go_carefully(before_s, passed_s, task, ground);
                 } else if over {
                     let swing = *swing;
-                    self.land(&swing, swing.to, task);
+                    self.land_in_time(&swing, task, ground);
                 } else if let KnownGround::Felt(felt) = ground {
                     self.feel_the_way(before_s, felt);
                 }

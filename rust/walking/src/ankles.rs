@@ -57,7 +57,7 @@ impl Ankles {
             sole.feel(&arms, &forces_n[index], passed_s / smooth_s);
             if sole.load_n > self.config.landing_load {
                 sole.forget(self.config.ankle_leak, passed_s);
-                if !on_listed_steps(phase) {
+                if !on_careful_steps(phase) {
                     sole.give_way(&self.config, passed_s);
                 }
             } else if matches!(phase, GaitPhase::Single { swing, .. } if swing.side == side) {
@@ -73,8 +73,8 @@ impl Ankles {
     }
 }
 
-/// Whether a step of a list comes or is under way: the list says what bears, and there the ankles only hold.
-fn on_listed_steps(phase: &GaitPhase) -> bool {
+/// Whether a careful step comes or is under way: the list says what bears, and there the ankles only hold.
+fn on_careful_steps(phase: &GaitPhase) -> bool {
     let (GaitPhase::Double {
         next: Some(swing), ..
     }
@@ -82,7 +82,7 @@ fn on_listed_steps(phase: &GaitPhase) -> bool {
     else {
         return false;
     };
-    swing.manner.is_listed()
+    swing.manner.is_careful()
 }
 
 impl TiltedSole {

@@ -58,8 +58,8 @@ impl Capture {
                     Some((swing.side, false)),
                 )
             }
-            // A listed step is put where it was told: beside that there may be an edge.
-            GaitPhase::Single { swing, .. } if swing.manner != Manner::Walk => (1.0, None),
+            // A careful step is put where it was told: beside that there may be an edge.
+            GaitPhase::Single { swing, .. } if !swing.manner.is_walked() => (1.0, None),
             GaitPhase::Single {
                 elapsed_s,
                 duration_s,
@@ -108,9 +108,13 @@ impl Capture {
         shift: &Vector2<f64>,
         passed_s: f64,
     ) {
+        let limit = match swing.manner {
+            Manner::Placed => self.config.tuning.listed.moved,
+            _ => self.config.capture_limit,
+        };
         let mut local = stance.relative(&swing.planned.planar);
-        local.x_m += shift.x;
-        local.y_m += shift.y;
+        local.x_m += shift.x.clamp(-limit, limit);
+        local.y_m += shift.y.clamp(-limit, limit);
         let goal = self
             .planner
             .keep_apart(stance, &stance.compose(&local), swing.side);
@@ -177,6 +181,19 @@ mod tests {
             assert!(rate >= 1.0);
         }
         assert!(landing(&gait).y_m > 0.06, "{:?}", landing(&gait));
+    }
+
+    #[test]
+    fn a_walked_step_of_a_list_is_held_but_stays_where_it_was_told() {
+        let (mut capture, mut gait, soles) = swinging(0.3);
+        if let GaitPhase::Single { swing, .. } = &mut gait.phase {
+            swing.manner = Manner::Placed;
+        }
+        let before = landing(&gait);
+        let _ = capture.adjust(&mut gait, &soles, &Vector2::new(0.03, 0.05), 6.0, 0.01);
+        assert!(landing(&gait).distance_m(&before) < 1e-12);
+        let rate = capture.adjust(&mut gait, &soles, &Vector2::new(0.0, -0.05), 6.0, 0.01);
+        assert!(rate < 1.0, "{rate}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What the walker promises of listed footsteps, in a world where joints follow their targets at once.
 
-use behaviour::{Footstep, Misstep, Motion};
+use behaviour::{Footstep, Misstep, Motion, StepManner};
 use geometry::PlanarPose;
 use proptest::prelude::*;
 
@@ -14,6 +14,7 @@ pub(super) const HALF_SOLE_M: f64 = 0.0525;
 pub(super) fn step(side: Side, x_m: f64, height_m: f64, bearing_m: [f64; 2]) -> Footstep {
     Footstep {
         side,
+        manner: StepManner::Careful,
         pose: PlanarPose::new(x_m, side.sign() * 0.5 * config().stance_width, 0.0),
         height_m,
         bearing_m,

@@ -3,7 +3,8 @@
 use robot::Side;
 
 use crate::config::GaitConfig;
-use crate::phase::{CarefulLanding, FootPose, GaitPhase};
+use crate::phase::{CarefulLanding, FootPose, GaitPhase, Manner};
+use crate::swing;
 
 /// Heights that are added to the planned ones.
 #[derive(Debug, Clone, Default)]
@@ -15,6 +16,8 @@ pub struct FeetControl {
     /// The foot that came down last, until it has found the ground.
     seeks: Option<Side>,
     flying: Option<(Side, f64)>,
+    /// How much higher than told a foot stands that walked in a list, m, until it is put down carefully.
+    yielded: [Option<f64>; 2],
 }
 
 /// A foot that landed before its time; its height is taken over when it is placed next.
@@ -55,7 +58,7 @@ impl FeetControl {
             swing,
         } = phase
         {
-            let landed = !swing.manner.is_listed()
+            let landed = !swing.manner.is_careful()
                 && loads_n[swing.side.index()] > config.landing_load
                 && elapsed_s / duration_s > config.tuning.stumble.landing_share;
             if landed && self.held.is_none() {
@@ -64,7 +67,7 @@ impl FeetControl {
                     height_m: None,
                 });
             }
-            self.seeks = (!swing.manner.is_listed() && self.held.is_none()).then_some(swing.side);
+            self.seeks = (!swing.manner.is_careful() && self.held.is_none()).then_some(swing.side);
             return;
         }
         self.held = None;
@@ -93,16 +96,26 @@ impl FeetControl {
     pub fn place(&mut self, phase: &GaitPhase, mut foot: FootPose, side: Side) -> FootPose {
         let index = side.index();
         match phase {
-            GaitPhase::Single { swing, .. } if swing.side == side => {
-                let careful = swing.manner.is_listed();
+            GaitPhase::Single {
+                swing, elapsed_s, ..
+            } if swing.side == side => {
+                let careful = swing.manner.is_careful();
                 self.flying = careful.then_some((side, foot.z_m));
                 if careful && swing.landing == CarefulLanding::Seeking(0.0) {
-                    self.landed[index] = 0.0;
+                    let share = elapsed_s / self.config.tuning.listed.level_time;
+                    let left = 1.0 - swing::minimum_jerk(share);
+                    self.landed[index] =
+                        self.yielded[index].map_or(0.0, |height_m| height_m * left);
+                } else if !careful && (swing.manner == Manner::Placed || self.walked(side)) {
+                    self.yielded[index] = Some(self.landed[index]);
                 }
             }
             _ => {
                 if let Some((_, told_m)) = self.flying.take_if(|(flying, _)| *flying == side) {
                     self.landed[index] = told_m - foot.z_m;
+                    self.yielded[index] = None;
+                } else if self.walked(side) {
+                    self.yielded[index] = Some(self.landed[index]);
                 }
             }
         }
@@ -112,6 +125,11 @@ impl FeetControl {
         }
         foot.z_m += side.sign() * 0.5 * self.tilt_m + self.landed[index];
         foot
+    }
+
+    /// Whether a foot walked to where it is in a list.
+    const fn walked(&self, side: Side) -> bool {
+        self.yielded[side.index()].is_some()
     }
 }
 
@@ -134,6 +152,41 @@ mod tests {
         });
         assert!(left > 0.0 && right < 0.0);
         assert!(left - right <= config().load_limit);
+    }
+
+    #[test]
+    fn a_foot_that_walked_onto_a_bump_in_a_list_is_lifted_carefully_without_a_jump() {
+        let mut control = FeetControl::new(&config());
+        let place = FootPose::default();
+        let swings = |manner, elapsed_s| GaitPhase::Single {
+            elapsed_s,
+            duration_s: 0.45,
+            swing: Swing::new(Side::Left, manner, place, place),
+        };
+        let walked = swings(Manner::Placed, 0.4);
+        control.update(&walked, &[0.0, 1.0], &[10.0, 60.0], 70.0, 0.01);
+        let bump = FootPose {
+            z_m: 0.004,
+            ..place
+        };
+        let _ = control.place(&walked, bump, Side::Left);
+        let mut stands = 0.0;
+        for _ in 0..2 {
+            stands = control.place(&GaitPhase::Standing, place, Side::Left).z_m;
+            control.update(&GaitPhase::Standing, &[0.5, 0.5], &[35.0, 35.0], 70.0, 0.0);
+        }
+        assert!((stands - 0.004).abs() < 1e-9, "{stands}");
+        let heights: Vec<f64> = (0..12u32)
+            .map(|tick| {
+                let lifted = swings(Manner::Careful, 0.01 * f64::from(tick));
+                control.place(&lifted, place, Side::Left).z_m
+            })
+            .collect();
+        assert_eq!((heights[0], heights[11]), (stands, 0.0));
+        assert!(
+            heights.windows(2).all(|pair| pair[0] - pair[1] < 0.001),
+            "{heights:?}"
+        );
     }
 
     #[test]

@@ -81,15 +81,20 @@ impl FootstepPlanner {
         if !(landing.x_m.is_finite() && landing.y_m.is_finite() && landing.yaw_rad.is_finite()) {
             return self.beside(stance, swing);
         }
-        let mut local = stance.relative(landing);
         let extra = config.capture_limit;
-        local.x_m = local
-            .x_m
-            .clamp(-config.max_backward - extra, config.max_forward + extra);
-        local.yaw_rad = local.yaw_rad.clamp(-config.max_turn, config.max_turn);
-        let (nearest, farthest) = self.lateral_limits_m(local.yaw_rad);
-        local.y_m = swing.sign() * (swing.sign() * local.y_m).clamp(nearest, farthest);
-        stance.compose(&local)
+        let along_m = [-config.max_backward - extra, config.max_forward + extra];
+        self.within(stance, landing, swing, along_m)
+    }
+
+    /// Moves a landing of a walked step of a list within reach, as [`Self::keep_apart`]: no farther than a walk goes without a push.
+    pub fn within_walk(
+        &self,
+        stance: &PlanarPose,
+        landing: &PlanarPose,
+        swing: Side,
+    ) -> PlanarPose {
+        let along_m = [-self.config.max_backward, self.config.max_forward];
+        self.within(stance, landing, swing, along_m)
     }
 
     /// Moves a landing of a careful step within reach, as [`Self::keep_apart`].
@@ -99,9 +104,20 @@ impl FootstepPlanner {
         landing: &PlanarPose,
         swing: Side,
     ) -> PlanarPose {
-        let mut local = stance.relative(landing);
         let most = self.config.climb_forward;
-        local.x_m = local.x_m.clamp(-most, most);
+        self.within(stance, landing, swing, [-most, most])
+    }
+
+    /// A landing moved to between these places along the standing foot, beside it, and turned no further than the gait turns.
+    fn within(
+        &self,
+        stance: &PlanarPose,
+        landing: &PlanarPose,
+        swing: Side,
+        [rear_m, front_m]: [f64; 2],
+    ) -> PlanarPose {
+        let mut local = stance.relative(landing);
+        local.x_m = local.x_m.clamp(rear_m, front_m);
         local.yaw_rad = local
             .yaw_rad
             .clamp(-self.config.max_turn, self.config.max_turn);

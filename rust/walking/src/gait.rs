@@ -1,6 +1,5 @@
 //! The sequence of steps: which foot stands, which moves, and what comes next.
 
-use behaviour::{Footstep, Stepping};
 use geometry::PlanarPose;
 use nalgebra::Vector2;
 use robot::Side;
@@ -8,7 +7,7 @@ use robot::Side;
 use crate::config::GaitConfig;
 use crate::footsteps::FootstepPlanner;
 use crate::listed::Listed;
-use crate::phase::{Bearing, FootPose, GaitPhase, Manner, Swing};
+use crate::phase::{FootPose, GaitPhase, Manner, Swing};
 use crate::relief::Relief;
 use crate::task::Task;
 
@@ -156,7 +155,7 @@ impl Gait {
                 let to = self.on_ground(&stance, planar, relief);
                 Some(Swing::new(side, Manner::Walk, from, to))
             }
-            // Behind a careful step, or one back off an edge, there may be no ground beside the other foot.
+            // Behind a step of a list, or one back off an edge, there may be no ground beside the other foot.
             Task::Stand(_) if self.last.1 != Manner::Walk => None,
             Task::Stand(_) if self.planner.is_beside(&stance.planar, &from.planar, side) => None,
             Task::Stand(relief) => {
@@ -214,59 +213,5 @@ impl Gait {
             } if swing.side == side => swing.foot(*elapsed_s, &self.config),
             _ => self.feet[side.index()],
         }
-    }
-}
-
-impl Gait {
-    /// Begins a list that is relative to this frame.
-    pub(crate) fn begin_list(&mut self, origin: PlanarPose, ground_m: f64) {
-        self.listed = Listed {
-            origin,
-            ground_m,
-            ..Listed::default()
-        };
-    }
-
-    /// Whether the list of `count` steps is behind the robot.
-    pub(crate) fn list_is_done(&self, count: usize) -> bool {
-        self.listed.landed >= count || self.gave_up()
-    }
-
-    /// Whether the list was given up.
-    pub(crate) const fn gave_up(&self) -> bool {
-        self.listed.misstep.is_some()
-    }
-
-    /// How the list goes.
-    pub fn stepping(&self) -> Stepping {
-        Stepping {
-            landed: self.listed.landed,
-            height_error_m: self.listed.height_error_m,
-            misstep: self.listed.misstep,
-            stumbled: self.listed.stumbled,
-        }
-    }
-
-    /// The next step of the list, `ahead` others left out; within reach of the foot that stands.
-    pub(crate) fn listed_swing(
-        &self,
-        feet: &[FootPose; 2],
-        steps: &[Footstep],
-        ahead: usize,
-    ) -> Option<Swing> {
-        let step = steps.get(self.listed.landed + ahead)?;
-        let side: Side = step.side;
-        let (stance, from) = (&feet[side.other().index()], feet[side.index()]);
-        let wanted = self.listed.origin.compose(&step.pose);
-        let most = self.config.climb_rise;
-        let height_m = self.listed.ground_m + step.height_m;
-        let [from_m, to_m] = step.bearing_m;
-        let to = FootPose {
-            planar: self.planner.within_climb(&stance.planar, &wanted, side),
-            z_m: height_m.clamp(stance.z_m - most, stance.z_m + most),
-            bearing: Bearing { from_m, to_m },
-            ..FootPose::default()
-        };
-        Some(Swing::new(side, Manner::Careful, from, to))
     }
 }

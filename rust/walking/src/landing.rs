@@ -11,6 +11,21 @@ use crate::swing;
 use crate::task::Task;
 
 impl Gait {
+    /// Puts down a foot whose time in the air is over, where it was told.
+    pub(crate) fn land_in_time(&mut self, swing: &Swing, task: Task<'_>, ground: &KnownGround) {
+        if swing.manner == Manner::Placed {
+            let index = swing.side.index();
+            self.listed.landed += 1;
+            self.listed.height_error_m = match ground {
+                KnownGround::Felt(felt) if felt.loads_n[index] > self.config.landing_load => {
+                    felt.soles_m[index].z - swing.to.z_m
+                }
+                KnownGround::Felt(_) | KnownGround::AsTold => 0.0,
+            };
+        }
+        self.land(swing, swing.to, task);
+    }
+
     /// What a careful foot does after `passed_s` more. Until it is found on the ground the clock stands when it should have been:
     /// up to then the weight is where the other foot can keep it.
     pub(crate) fn go_carefully(

@@ -76,6 +76,8 @@ impl FootPose {
 pub enum Manner {
     /// A step of a walk on level ground.
     Walk,
+    /// A step of a list, taken as in a walk.
+    Placed,
     /// A step of a list: straight up, over and straight down, the landing verified.
     Careful,
     /// Back to where the foot came from, when a step of a list has failed.
@@ -85,14 +87,19 @@ pub enum Manner {
 }
 
 impl Manner {
-    /// Whether the step is of a list: the landing is waited for.
-    pub const fn is_listed(self) -> bool {
+    /// Whether the landing is waited for.
+    pub const fn is_careful(self) -> bool {
         matches!(self, Self::Careful | Self::Back)
+    }
+
+    /// Whether the foot goes as in a walk.
+    pub const fn is_walked(self) -> bool {
+        matches!(self, Self::Walk | Self::Placed)
     }
 
     /// Time on both feet between two steps when the coming one is of this kind, s.
     pub fn double_support_s(self, config: &GaitConfig) -> f64 {
-        if self.is_listed() {
+        if self.is_careful() {
             config.climb_double_support
         } else {
             config.double_support
@@ -144,7 +151,7 @@ impl Swing {
     pub fn in_air_s(&self, config: &GaitConfig) -> f64 {
         let (from, to) = (&self.from, &self.to);
         match self.manner {
-            Manner::Walk => config.step_time - config.double_support,
+            Manner::Walk | Manner::Placed => config.step_time - config.double_support,
             Manner::Retreat => config.retreat_time,
             Manner::Careful | Manner::Back => {
                 let way_m = from.planar.distance_m(&to.planar);
@@ -159,7 +166,7 @@ impl Swing {
     /// Time in which the other foot carries everything, s.
     pub fn single_support_s(&self, config: &GaitConfig) -> f64 {
         match self.manner {
-            Manner::Walk | Manner::Retreat => self.in_air_s(config),
+            Manner::Walk | Manner::Placed | Manner::Retreat => self.in_air_s(config),
             Manner::Careful | Manner::Back => self.in_air_s(config) + config.climb_landing_time,
         }
     }
@@ -171,7 +178,7 @@ impl Swing {
         let share = elapsed_s / self.in_air_s(config);
         let times = &config.tuning.swing;
         let (along, mut z_m) = match self.manner {
-            Manner::Walk => {
+            Manner::Walk | Manner::Placed => {
                 let top_m = higher_m + config.step_height;
                 let height_m = swing::height_m(share, from.z_m, top_m, to.z_m);
                 (swing::travel(share, times), height_m)

@@ -5,7 +5,7 @@ use robot::Side;
 
 use crate::dcm::{self, ZmpSegment};
 use crate::gait::Gait;
-use crate::phase::{GaitPhase, GaitReference, Swing};
+use crate::phase::{GaitPhase, GaitReference, Manner, Swing};
 use crate::task::Task;
 use crate::tuning::MOST_STEPS;
 
@@ -78,6 +78,9 @@ impl Gait {
         let mut stands = self.stance_point(swing.side.other());
         for ahead in 1..self.config.tuning.preview.steps {
             feet[swing.side.index()] = swing.to;
+            if swing.manner == Manner::Placed && matches!(task, Task::Stand(_)) {
+                break;
+            }
             let Some(next) = self.next_swing(&feet, swing.side, task, ahead) else {
                 break;
             };

@@ -8,10 +8,13 @@ use crate::{gait::Gait, relief::Relief, task::Task};
 ///
 /// A list is new when it is not that of the tick before: after any other motion, or, once the one before is done and the robot
 /// stands, when it differs from it. In the midst of a list another one takes its place when it begins with the same steps, up to the
-/// one that a foot is on its way to; any other is left alone until then.
+/// one that a foot is on its way to; one that ends before ends it with that step; any other is left alone until then.
 #[derive(Debug, Clone, Default)]
 pub struct StepList {
+    /// What is taken.
     steps: Vec<Footstep>,
+    /// What was given for it: the same, or fewer steps than had been begun.
+    given: Vec<Footstep>,
     state: ListState,
 }
 
@@ -40,27 +43,39 @@ impl StepList {
         let new = match self.state {
             ListState::Idle => true,
             ListState::Waiting => false,
-            ListState::Begun => done && *steps != self.steps,
+            ListState::Begun => done && *steps != self.given,
         };
         if new && steps.iter().all(is_finite) {
-            self.steps.clear();
-            self.steps.extend_from_slice(steps);
+            self.take_over(steps, 0);
             self.state = ListState::Waiting;
             gait.begin_list(robot.planar, robot.ground_m);
-        } else if self.state == ListState::Begun && !done && self.may_become(steps, gait) {
-            self.steps.clear();
-            self.steps.extend_from_slice(steps);
+        } else if self.state == ListState::Begun
+            && !done
+            && let Some(kept) = self.kept_by(steps, gait)
+        {
+            self.take_over(steps, kept);
         }
         if self.state == ListState::Waiting && gait.is_standing() {
             self.state = ListState::Begun;
         }
     }
 
-    /// Whether these steps begin with those that are taken or on their way.
-    fn may_become(&self, steps: &[Footstep], gait: &Gait) -> bool {
+    /// Takes these steps from now on, behind so many of those that were taken until now.
+    fn take_over(&mut self, steps: &[Footstep], kept: usize) {
+        self.given.clear();
+        self.given.extend_from_slice(steps);
+        self.steps.truncate(kept);
+        self.steps.extend(steps.iter().skip(kept));
+    }
+
+    /// How many steps are taken or on their way where these may take their place: they begin with the same, or end before.
+    fn kept_by(&self, steps: &[Footstep], gait: &Gait) -> Option<usize> {
         let begun = gait.stepping().landed + 1;
-        let same = |steps: &[Footstep]| steps.get(..begun) == self.steps.get(..begun);
-        self.steps.len() > begun && same(steps) && steps.iter().all(is_finite)
+        let same = begun.min(steps.len());
+        let begins = steps.get(..same) == self.steps.get(..same);
+        let comes = self.steps.len() > begun;
+        let ends = steps.len() < begun && self.steps.len() == begun;
+        ((comes || ends) && begins && steps.iter().all(is_finite)).then_some(begun)
     }
 
     /// Whether all steps of the list landed, or it was given up.

@@ -3,6 +3,7 @@
 //! Floors differ by up to 10 mm, which the walk takes as it comes; from there to the least step that the camera tells apart, feet
 //! are all that a robot has.
 
+use behaviour::Misstep;
 use geometry::PlanarPose;
 use nalgebra::Vector2;
 use robot::Side;
@@ -41,6 +42,9 @@ impl Gait {
             self.listed.stumbled = true;
             self.listed.met = Some(self.met(&swing, elapsed_s, felt));
             self.listed.met_last = self.listed.met;
+            if swing.manner == Manner::Placed {
+                self.listed.misstep = Some(Misstep::Obstructed);
+            }
             self.go_off(&swing, elapsed_s, felt);
         }
     }
@@ -50,7 +54,7 @@ impl Gait {
         let index = swing.side.index();
         let share = elapsed_s / swing.in_air_s(&self.config);
         let above_m = felt.soles_m[index].z - swing.to.z_m;
-        swing.manner == Manner::Walk
+        swing.manner.is_walked()
             && share > self.config.tuning.landing.left_share
             && felt.loads_n[index] > self.config.landing_load
             && above_m > self.config.stumble_height

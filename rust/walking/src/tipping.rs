@@ -47,7 +47,7 @@ impl Gait {
 
 #[cfg(test)]
 mod tests {
-    use behaviour::Footstep;
+    use behaviour::{Footstep, StepManner};
     use robot::Side;
 
     use super::*;
@@ -58,6 +58,7 @@ mod tests {
 
     const STEP: [Footstep; 1] = [Footstep {
         side: Side::Left,
+        manner: StepManner::Careful,
         pose: PlanarPose {
             x_m: 0.12,
             y_m: 0.0425,

@@ -30,6 +30,8 @@ settings! {
         swing: SwingTuning;
         /// How a foot of a walk lands, and what it takes for a level that it was not told of.
         stumble: StumbleTuning;
+        /// Which steps of a list are walked.
+        listed: ListedTuning;
         /// How a foot of a listed step lands.
         landing: LandingTuning;
         /// When a listed step is begun anew because the robot tips.
@@ -183,6 +185,21 @@ settings! {
         /// A foot of which more than this share lies beyond the edge that it met stands well there: pressed at its
         /// middle it may as well lie on a cable.
         stands_share: f64 = 1.0, "1", SHARE;
+    }
+}
+
+settings! {
+    /// Which steps of a list are walked that are to be, and how much they may be moved.
+    pub struct ListedTuning("gait.tuning.listed") {
+        /// A step that leads higher or lower than this from where the foot leaves, or from the foot that stands, is taken carefully: floors
+        /// differ by so much.
+        level: f64 = 0.01, "m", within(0.0, 10.0);
+        /// A step is shortened by so much to what the robot walks; one that would have to be shortened more is taken carefully.
+        shortened: f64 = 0.01, "m", within(0.0, 10.0);
+        /// The farthest that a walked step is moved to catch a push: beside where it was told there may be an edge.
+        moved: f64 = 0.0, "m", within(0.0, 10.0);
+        /// Time from its lift in which a careful foot that stood higher or lower than told behind a walked step goes to its path.
+        level_time: f64 = 0.1, "s", above_to(0.0, 60.0);
     }
 }
 

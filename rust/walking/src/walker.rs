@@ -260,3 +260,7 @@ mod slope_tests;
 #[cfg(test)]
 #[path = "list_tests.rs"]
 mod list_tests;
+
+#[cfg(test)]
+#[path = "mixed_list_tests.rs"]
+mod mixed_list_tests;

@@ -1,6 +1,6 @@
 //! What the walker promises, in a world where joints follow their targets at once.
 
-use behaviour::{Footstep, Gaze, Motion, Velocity};
+use behaviour::{Footstep, Gaze, Motion, StepManner, Velocity};
 use geometry::PlanarPose;
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -33,9 +33,15 @@ fn any_number() -> impl Strategy<Value = f64> {
 }
 
 fn any_command() -> impl Strategy<Value = Command> {
-    let step = (any_number(), any_number(), any_number(), any::<bool>()).prop_map(
-        |(x_m, y_m, yaw_rad, left)| Footstep {
+    let either = (any::<bool>(), any::<bool>());
+    let step = (any_number(), any_number(), any_number(), either).prop_map(
+        |(x_m, y_m, yaw_rad, (left, walked))| Footstep {
             side: if left { Side::Left } else { Side::Right },
+            manner: if walked {
+                StepManner::Walked
+            } else {
+                StepManner::Careful
+            },
             pose: PlanarPose::new(x_m, y_m, yaw_rad),
             height_m: 0.0,
             bearing_m: [-0.0525, 0.0525],
@@ -158,12 +164,14 @@ fn listed_footsteps_are_taken_and_then_it_stands() {
     let steps = vec![
         Footstep {
             side: Side::Left,
+            manner: StepManner::Careful,
             pose: PlanarPose::new(0.05, 0.045, 0.0),
             height_m: 0.0,
             bearing_m: [-0.0525, 0.0525],
         },
         Footstep {
             side: Side::Right,
+            manner: StepManner::Careful,
             pose: PlanarPose::new(0.05, -0.045, 0.0),
             height_m: 0.0,
             bearing_m: [-0.0525, 0.0525],

@@ -3,7 +3,9 @@
 use geometry::PlanarPose;
 use robot::Side;
 
-use crate::{Footstep, climbing::StairClimbingConfig, climbing::tuning::FootstepsTuning};
+use crate::{
+    Footstep, StepManner, climbing::StairClimbingConfig, climbing::tuning::FootstepsTuning,
+};
 
 /// Both feet side by side somewhere in the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +24,7 @@ impl Stance {
         let place = PlanarPose::new(0.0, 0.5 * side.sign() * stance_m, 0.0);
         Footstep {
             side,
+            manner: StepManner::Careful,
             pose: self.pose.compose(&place),
             height_m: self.height_m,
             bearing_m: self.bearing_m,
