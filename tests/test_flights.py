@@ -1,6 +1,7 @@
 """Flights that draw themselves: within their bounds, solvable where none closes them, for both."""
 
 from collections import Counter
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,10 @@ from test_course import course_of, scenario_of
 
 from treadwell.course.build import build_course
 from treadwell.course.course import Course
-from treadwell.course.worlds.drawing import STOP, away, is_closed
+from treadwell.course.outlines import signed_distance
+from treadwell.course.scatter import overlap
+from treadwell.course.worlds.drawing import STOP, Budget, World, away, is_closed
+from treadwell.course.worlds.flight_shapes import STANDING, USED, Level, shape, with_heights
 from treadwell.course.worlds.flights import drawn_flights
 from treadwell.course.worlds.raised_floor import HIGH
 from treadwell.errors import InputError
@@ -94,10 +98,58 @@ def test_every_shape_and_thing_comes_and_what_is_not_asked_for_does_not() -> Non
         "winder": {"winder"},
     }
     assert set(only) == set(FLIGHT_SHAPES)
-    for shape, parts in only.items():
-        element = {"kind": "flights", "shapes": [shape], "things": [], "closed": 1}
+    for kind, parts in only.items():
+        element = {"kind": "flights", "shapes": [kind], "things": [], "closed": 1}
         for seed in range(4):
             assert things(course_of(element, seed=seed, **GOAL)) == parts
+
+
+def levels_of(kind: str, seed: int, *, door: bool = False) -> tuple[list[Level], float]:
+    world = World(Flights(kind="flights"), "flights", np.random.default_rng(seed), Budget())
+    return shape(world, Flights(kind="flights"), kind, door=door)
+
+
+@pytest.mark.parametrize("kind", FLIGHT_SHAPES)
+def test_each_level_begins_at_the_one_below_and_none_lies_over_another(kind: str) -> None:
+    for seed in range(20):
+        levels, turn = levels_of(kind, seed, door=seed % 2 == 0)
+        assert levels[-1].what == "top"
+        assert (turn != 0.0) == (kind == "winder")
+        for below, level in pairwise(levels):
+            meet = [
+                float(signed_distance(one.outline, place[None])[0])
+                for one, place in ((below, level.front), (level, below.back))
+            ]
+            assert min(abs(away_from) for away_from in meet) < 1e-9
+        if turn:
+            continue
+        assert all(0.11 <= level.depth <= 0.25 for level in levels if level.what == "step")
+        for number, level in enumerate(levels):
+            inside = 0.999 * (level.outline - level.outline.mean(axis=0))
+            shrunk = inside + level.outline.mean(axis=0)
+            assert not any(overlap(shrunk, other.outline) for other in levels[number + 1 :])
+
+
+def test_one_can_stand_on_every_winding_tread_where_one_walks() -> None:
+    for seed in range(40):
+        levels, turn = levels_of("winder", seed)
+        first = levels[0]
+        outer = first.depth + abs(turn) * (first.width / 2 - USED)
+        assert STANDING - 1e-9 <= outer <= 0.25 + 1e-9
+
+
+def test_levels_are_each_higher_by_a_rise_and_can_be_moved_anywhere() -> None:
+    levels, _ = levels_of("l", 3)
+    high = with_heights(levels, [0.03] * len(levels))
+    assert [level.height for level in high] == pytest.approx(
+        [0.03 * (i + 1) for i in range(len(levels))]
+    )
+    moved = [level.moved(np.array([1.0, -2.0]), 2.0) for level in high]
+    for before, after in zip(high, moved, strict=True):
+        assert np.linalg.norm(after.back - [1.0, -2.0]) == pytest.approx(
+            float(np.linalg.norm(before.back))
+        )
+        assert after.yaw == pytest.approx(before.yaw + 2.0)
 
 
 def test_flights_lead_up_in_every_direction() -> None:

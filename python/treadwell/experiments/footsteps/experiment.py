@@ -16,7 +16,7 @@ def footsteps_experiment(behaviour: str = BEHAVIOUR) -> Experiment:
     suite = suite_of(behaviour)
     return Experiment(
         name="footsteps",
-        description=f"Flights that turn, wind, stand aside, stones and slabs: {behaviour}",
+        description=f"{behaviour} on flights that turn, wind or stand aside, stones and slabs",
         cases=suite.cases,
         tables=footsteps_tables(suite),
     )
