@@ -45,7 +45,7 @@ Tread = Annotated[float, Field(ge=0.05, le=1.0)]
 FlightShape = Literal["straight", "l", "u", "winder"]
 """How a flight that draws itself can lead up."""
 FlightThing = Literal["cheek", "rail", "door"]
-"""What can stand beside such a flight, or on its top."""
+"""What can stand beside such a flight, on its landing or on its top."""
 FLIGHT_SHAPES: Final[tuple[FlightShape, ...]] = ("straight", "l", "u", "winder")
 FLIGHT_THINGS: Final[tuple[FlightThing, ...]] = ("cheek", "rail", "door")
 
@@ -141,7 +141,7 @@ class Flights(ElementTable):
     tread: Annotated[tuple[Tread, Tread], Field(strict=False)] = (0.11, 0.25)
     """Least and largest depth of a tread, m; of winding ones of the usable part."""
     things: Annotated[tuple[FlightThing, ...], Field(strict=False, max_length=3)] = FLIGHT_THINGS
-    """What they may have: cheeks or rails beside the steps, a door on the top."""
+    """What they may have: cheeks or rails beside the steps, a door on a landing or on the top."""
     down: Fraction = 0.5
     """The share of seeds in which the start is on the top, and the goal on the ground."""
     closed: Fraction = 0.15

@@ -38,6 +38,10 @@ DOOR_TOP: Final = 1.75
 """Metres: depth of a top with one, whose leaf swings over it."""
 DOOR_WIDTH: Final = 1.0
 """Metres: width of such a top, at least."""
+DOORWAY_WIDTH: Final = 0.7
+"""Metres: width of a flight with a door on its landing, at least."""
+BEFORE_DOORWAY_TURN: Final = 0.2
+"""Metres by which such a landing is deeper."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,12 +53,14 @@ class Measures:
         width: of its steps.
         top: depth of its top.
         top_width: width of its top.
+        before_turn: depth of a landing before the part on which one turns.
     """
 
     tread: float
     width: float
     top: float
     top_width: float
+    before_turn: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,22 +105,31 @@ class Level:
         return replace(self, front=front, yaw=self.yaw + yaw)
 
 
-def shape(world: World, flights: Flights, kind: str, *, door: bool) -> tuple[list[Level], float]:
+def shape(
+    world: World, flights: Flights, kind: str, door: Literal["", "landing", "top"] = ""
+) -> tuple[list[Level], float]:
     """Draw a flight: its levels from the lowest to the top, and by how much each step is turned.
 
     Args:
         world: what is drawn.
         flights: within which bounds.
         kind: one of its shapes.
-        door: whether the top has room for one.
+        door: which level has room for one; only where one turns on a landing there is one.
     """
     tread = world.uniform(*flights.tread)
     width = world.uniform(*(WINDING_WIDTHS if kind == "winder" else WIDTHS))
-    top = DOOR_TOP if door else world.uniform(*TOPS)
-    measures = Measures(tread, width, top, max(width, DOOR_WIDTH) if door else width)
+    top, top_width = world.uniform(*TOPS), width
+    if door == "top":
+        top, top_width = DOOR_TOP, max(width, DOOR_WIDTH)
+    before_turn = 0.0
+    if door == "landing":
+        width = top_width = max(width, DOORWAY_WIDTH)
+        before_turn = BEFORE_DOORWAY_TURN
+    measures = Measures(tread, width, top, top_width, before_turn)
     if kind == "winder":
         return _winder(world, flights, measures)
-    side = world.one_of(1.0, -1.0)
+    # A leaf is hinged left: it stands aside where one turns to the right.
+    side = -1.0 if door == "landing" else world.one_of(1.0, -1.0)
     if kind == "l":
         return _quarter_turn(world, measures, side), 0.0
     if kind == "u":
@@ -129,12 +144,12 @@ def _straight(world: World, measures: Measures) -> list[Level]:
 
 def _quarter_turn(world: World, measures: Measures, side: float) -> list[Level]:
     """Turn on a square landing to the left (1) or to the right (-1)."""
-    width = measures.width
+    width, before = measures.width, measures.before_turn
     below = _steps(measures, np.zeros(2), 0.0, _count(world, BEFORE_TURN))
-    landing = Level("landing", below[-1].back, 0.0, width, width)
+    landing = Level("landing", below[-1].back, 0.0, before + width, width)
     yaw = side * math.pi / 2
     above = _steps(
-        measures, landing.at(width / 2, side * width / 2), yaw, _count(world, AFTER_TURN)
+        measures, landing.at(before + width / 2, side * width / 2), yaw, _count(world, AFTER_TURN)
     )
     return [*below, landing, *above, _top(measures, above[-1].back, yaw)]
 
@@ -146,7 +161,7 @@ def _half_turn(world: World, measures: Measures, side: float) -> list[Level]:
     below = _steps(measures, np.zeros(2), 0.0, _count(world, BEFORE_TURN))
     first = below[-1].back
     across = side * apart * left_of(0.0)
-    landing = Level("landing", first + across / 2, 0.0, width, width + apart)
+    landing = Level("landing", first + across / 2, 0.0, measures.before_turn + width, width + apart)
     above = _steps(measures, first + across, math.pi, _count(world, AFTER_TURN))
     return [*below, landing, *above, _top(measures, above[-1].back, math.pi)]
 

@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Sequence
-from typing import Final
+from dataclasses import dataclass
+from typing import Final, Literal
 
 import numpy as np
 
-from treadwell.course.outlines import Floats
+from treadwell.course.outlines import Floats, heading
 from treadwell.course.worlds.doorways import AJAR, LINTELS, LOW, NARROW, WIDTHS
 from treadwell.course.worlds.drawing import LAYOUTS, STOP, Budget, Drawn, World, away, is_closed
 from treadwell.course.worlds.flight_shapes import Level, shape, with_heights
@@ -15,10 +16,14 @@ from treadwell.errors import InputError
 from treadwell.random_streams import stream
 from treadwell.scenario.drawn_elements import Flights
 
-DOOR: Final = 0.3
+ON_TOP: Final = 0.3
 """Metres from a top's front edge to the door across it."""
+ON_LANDING: Final = 0.12
+"""The same of a landing."""
 DOORS: Final = 0.4
-"""Share of the flights that may, which have a door on the top."""
+"""Share of the flights that may, which have an open door on a landing or on the top."""
+JAMB: Final = 0.03
+"""Metres of wall beside a door, at least."""
 FAR_EDGE: Final = 0.35
 """Metres from start or goal on a top to its far edge and to its sides, at least."""
 WALL_HEIGHT: Final = 0.95
@@ -30,6 +35,19 @@ RAIL_HEIGHT: Final = 0.36
 """Metres from a tread to the underside of the rail beside it."""
 RAIL: Final = 0.025
 POST: Final = 0.02
+
+
+@dataclass(frozen=True, slots=True)
+class FlightDoor:
+    """A door across a flight.
+
+    Attributes:
+        on: the level that it stands on.
+        how: open, ajar; shut, low or narrow where it closes the way.
+    """
+
+    on: Literal["landing", "top"]
+    how: str
 
 
 def drawn_flights(flights: Flights, name: str, *, seed: int, stops: Sequence[Floats]) -> Drawn:
@@ -62,9 +80,9 @@ def drawn_flights(flights: Flights, name: str, *, seed: int, stops: Sequence[Flo
 def _layout(world: World, flights: Flights, above: Floats, ground: Floats, *, closed: bool) -> bool:
     """Draw flights to the stop above (2,); return whether those on the ground (n, 2) are free."""
     kind = str(world.one_of(*flights.shapes))
-    door = _door(world, flights, closed=closed)
-    levels, turn = shape(world, flights, kind, door=bool(door))
-    rises = _rises(world, flights, len(levels), high=closed and door in {"", "open", "ajar"})
+    door = _door(world, flights, kind, closed=closed)
+    levels, turn = shape(world, flights, kind, door.on if door else "")
+    rises = _rises(world, flights, len(levels), high=closed and door is None)
     levels = _placed(world, with_heights(levels, rises), above)
     if closed and door and levels[-1].height < HIGH[0]:
         return False  # one could get around the door
@@ -72,20 +90,24 @@ def _layout(world: World, flights: Flights, above: Floats, ground: Floats, *, cl
         return False
     _build(world, levels, rises, turn)
     if door:
-        _draw_door(world, levels[-1], door)
+        _draw_door(world, levels, door)
     guards = [thing for thing in ("cheek", "rail") if thing in flights.things]
     if guards and not turn:
         _guard(world, levels, str(world.one_of("", *guards)))
     return True
 
 
-def _door(world: World, flights: Flights, *, closed: bool) -> str:
-    """Return what is on the top: an open door, one that closes the way, or nothing."""
+def _door(world: World, flights: Flights, kind: str, *, closed: bool) -> FlightDoor | None:
+    """Return the door that a flight has: an open one, one that closes the way, or none."""
     if "door" not in flights.things:
-        return ""
+        return None
     if closed:
-        return str(world.one_of("", "", "shut", "low", "narrow"))
-    return str(world.one_of("open", "ajar")) if world.happens(DOORS) else ""
+        how = world.one_of("", "", "shut", "low", "narrow")
+        return FlightDoor("top", how) if how else None
+    if not world.happens(DOORS):
+        return None
+    on = world.one_of("landing", "top") if kind in {"l", "u"} else "top"
+    return FlightDoor("landing" if on == "landing" else "top", world.one_of("open", "ajar"))
 
 
 def _rises(world: World, flights: Flights, count: int, *, high: bool) -> list[float]:
@@ -121,20 +143,27 @@ def _build(world: World, levels: Sequence[Level], rises: Sequence[float], turn: 
         world.platform(world.called(level.what), level.at(level.depth / 2), level.yaw, size)
 
 
-def _draw_door(world: World, top: Level, what: str) -> None:
-    """Draw a door across a top, in a wall as wide as that; it opens away from the steps."""
-    width = world.uniform(*WIDTHS)
-    if what == "narrow":
+def _draw_door(world: World, levels: Sequence[Level], door: FlightDoor) -> None:
+    """Draw a door across the way, in a wall as wide as that; it opens away from the steps."""
+    number = next(i for i, level in enumerate(levels) if level.what == door.on)
+    level, below = levels[number], levels[number - 1]
+    wide, along = level.width, ON_TOP
+    if door.on == "landing":
+        wide, along = below.width, ON_LANDING
+    width = min(world.uniform(*WIDTHS), wide - 2 * JAMB)
+    if door.how == "narrow":
         width = world.uniform(*NARROW)
-    beside = (top.width - width) / 2
+    beside = (wide - width) / 2
     keys = {
         "width": width,
-        "height": top.height + world.uniform(*(LOW if what == "low" else LINTELS)),
-        "wall": (beside, beside, top.height + WALL_HEIGHT),
+        "height": level.height + world.uniform(*(LOW if door.how == "low" else LINTELS)),
+        "wall": (beside, beside, level.height + WALL_HEIGHT),
         "thickness": WALL,
-        "open": {"shut": 0.0, "ajar": world.uniform(*AJAR)}.get(what, world.uniform(0.95, 1.0)),
+        "open": {"shut": 0.0, "ajar": world.uniform(*AJAR)}.get(door.how, world.uniform(0.95, 1.0)),
     }
-    world.door(world.called("door"), top.at(DOOR), top.yaw, **keys)
+    # The way comes over the back of the step below: a landing may be wider to one side.
+    at = below.back + along * heading(level.yaw)
+    world.door(world.called("door"), at, level.yaw, **keys)
 
 
 def _guard(world: World, levels: Sequence[Level], kind: str) -> None:
