@@ -81,7 +81,8 @@ def test_every_experiments_scenarios_are_there() -> None:
 def test_an_experiment_that_is_not_there_is_bad_input(
     name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with pytest.raises(InputError, match="allowed are fog, indoor, models, nao, stairs, world"):
+    allowed = "allowed are fog, footsteps, indoor, models, nao, stairs, world"
+    with pytest.raises(InputError, match=allowed):
         find_experiment(name)
     assert execute(["experiment", name]) == 2
     assert "there is no experiment" in capsys.readouterr().err

@@ -92,6 +92,8 @@ def test_every_kind_of_element_has_defaults(tmp_path: Path, kind: str) -> None:
         ('[[course]]\nkind = "house"\nthings = ["dor"]', 'course.house.things.0: found "dor"'),
         ('[[course]]\nkind = "house"\nthings = ["dor"]', "did you mean 'door'?"),
         ('[[course]]\nkind = "yard"\narea = [[1, 1], [0, 0]]', "course.yard.area"),
+        ('[[course]]\nkind = "flights"\ntread = [0.2, 0.1]', "course.flights.tread"),
+        ('[[course]]\nkind = "slabs"\nedge = 0.001', "course.slabs.edge"),
         ('[[course]]\nkind = "door"\nopen = 1.5', "course.door.open: found 1.5"),
         ('[[course]]\nkind = "door"\nwall = [-1, 0, 1]', "course.door.wall.0: found -1"),
         ('[[event]]\nat = 1\ndo = "move"\nname = "a"', "must have either 'to' or 'path'"),

@@ -278,3 +278,26 @@ def test_the_ground_knows_surfaces_above_each_other_and_what_lies_on_them() -> N
     x, y = ground.centre(row, column)
     assert (x, y) == pytest.approx((1.0, -0.1), abs=ground.cell)
     assert [abs(normal).max() for _, _, normal in edges_of(ground.tops[0])] == [1.0] * 4
+
+
+def test_over_stones_for_one_foot_or_slabs_it_cannot_tell_where_it_finds_no_way() -> None:
+    """Its feet go side by side; where they find a way all the same, there is one."""
+    for name in ("stepping_stones", "slabs"):
+        for robot in (qrio(), load_robot("nao")):
+            for seed in range(3):
+                made = load_scenario(name, seed=seed)
+                assert is_solvable(made, build_course(made, robot), robot) is not False
+    stones = """
+[[course]]
+kind = "platform"
+position = [0.9, 0.0]
+size = [{size}, {size}, 0.09]
+[[course]]
+kind = "wall"
+from = [1.2, -0.5]
+to = [1.2, 0.5]
+"""
+    assert solvable(stones.format(size=0.18)) is None
+    assert solvable(stones.format(size=0.3)) is False, "both feet have room on it"
+    assert solvable(stones.format(size=0.09)) is False, "no sole has room on it"
+    assert solvable(stones.format(size=0.18).partition('[[course]]\nkind = "wall"')[0]) is True

@@ -34,6 +34,7 @@ COLOURS: Final[dict[str, tuple[float, float, float]]] = {
     "patch": (0.5, 0.5, 0.5),
     "vegetation": (0.33, 0.50, 0.22),
     "terrain": (0.62, 0.58, 0.44),
+    "slabs": (0.66, 0.64, 0.60),
     "mesh": (0.50, 0.42, 0.60),
 }
 HANGING: Final = (0.91, 0.62, 0.20)

@@ -12,19 +12,21 @@ from treadwell.course.doors import LEAF, frame_pieces, hinge_of, leaf_piece
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import Piece, Top, simple_pieces
 from treadwell.course.scatter import scattered
+from treadwell.course.slabs import slab_pieces
 from treadwell.course.stairs import stairs_pieces
 from treadwell.course.terrain import terrain_pieces
 from treadwell.course.vegetation import stems
 from treadwell.course.worlds.drawing import Drawn
+from treadwell.course.worlds.flights import drawn_flights
 from treadwell.course.worlds.house import drawn_house
 from treadwell.course.worlds.yard import drawn_yard
 from treadwell.errors import InputError
 from treadwell.robot.load import Robot
-from treadwell.scenario.drawn_elements import House, Scatter, Yard
+from treadwell.scenario.drawn_elements import Flights, House, Scatter, Yard
 from treadwell.scenario.element_table import ElementTable
 from treadwell.scenario.elements import ELEMENTS, MOVABLE, Door, Mesh, Mjcf, Stairs, Wall
 from treadwell.scenario.events import Add, Event, Move, Remove, SetDoor
-from treadwell.scenario.ground_elements import Terrain, Vegetation
+from treadwell.scenario.ground_elements import Slabs, Terrain, Vegetation
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.values import element_names
@@ -96,7 +98,7 @@ def plan_course(scenario: Scenario, robot: Robot) -> Plan:
     moved = _moved(scenario.event)
     fixed = [
         None
-        if isinstance(element, Scatter | House | Yard)
+        if isinstance(element, Scatter | House | Yard | Flights)
         else _planned(scenario, name, element, moved, present=event is None)
         for name, element, event in elements
     ]
@@ -136,6 +138,8 @@ def _drawn(
             return drawn_house(element, name, seed=scenario.seed, stops=stops, width=width)
         if isinstance(element, Yard):
             return drawn_yard(element, name, seed=scenario.seed, stops=stops, width=width)
+        if isinstance(element, Flights):
+            return drawn_flights(element, name, seed=scenario.seed, stops=stops)
         assert isinstance(element, Scatter)
         items = scattered(
             element,
@@ -183,6 +187,8 @@ def _planned(
         pieces, shape = [piece], (vertices, faces)
     elif isinstance(element, Terrain):
         pieces, tops = terrain_pieces(element, name, scenario.seed, scenario.folder)
+    elif isinstance(element, Slabs):
+        pieces, tops = slab_pieces(element, name, scenario.seed)
     elif isinstance(element, Stairs):
         pieces, tops = stairs_pieces(element)
     else:

@@ -6,6 +6,7 @@ from typing import Final
 from treadwell.errors import InputError
 from treadwell.experiments.experiment import Experiment
 from treadwell.experiments.fog import FOG
+from treadwell.experiments.footsteps.experiment import FOOTSTEPS
 from treadwell.experiments.indoor.experiment import INDOOR
 from treadwell.experiments.models.experiment import MODELS
 from treadwell.experiments.nao import NAO
@@ -13,7 +14,7 @@ from treadwell.experiments.stairs import STAIRS
 from treadwell.experiments.world.experiment import WORLD
 
 EXPERIMENTS: Final[dict[str, Experiment]] = {
-    made.name: made for made in (FOG, INDOOR, MODELS, NAO, STAIRS, WORLD)
+    made.name: made for made in (FOG, FOOTSTEPS, INDOOR, MODELS, NAO, STAIRS, WORLD)
 }
 
 

@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from treadwell.scenario.element_table import ElementTable
-from treadwell.scenario.types import Fraction, Point2, Size2
+from treadwell.scenario.types import Fraction, Point2, Rise, Size2
 
 Area = Annotated[tuple[Point2, Point2], Field(strict=False)]
 """Its lower and its upper corner: world x, y, m."""
@@ -40,6 +40,14 @@ HOUSE_THINGS: Final[tuple[HouseThing, ...]] = (
     "person",
 )
 YARD_THINGS: Final[tuple[YardThing, ...]] = ("kerb", "ramp", "slab", "post", "bar")
+Tread = Annotated[float, Field(ge=0.05, le=1.0)]
+"""Depth of a tread of a flight that draws itself, metres."""
+FlightShape = Literal["straight", "l", "u", "winder"]
+"""How a flight that draws itself can lead up."""
+FlightThing = Literal["cheek", "rail", "door"]
+"""What can stand beside such a flight, on its landing or on its top."""
+FLIGHT_SHAPES: Final[tuple[FlightShape, ...]] = ("straight", "l", "u", "winder")
+FLIGHT_THINGS: Final[tuple[FlightThing, ...]] = ("cheek", "rail", "door")
 
 
 class Scatter(ElementTable):
@@ -111,4 +119,40 @@ class Yard(ElementTable):
     @model_validator(mode="after")
     def _is_ordered(self) -> Self:
         check_area(self.area)
+        return self
+
+
+class Flights(ElementTable):
+    """Stairs up to the goal, or from the start down, on open ground, in any direction.
+
+    They are straight, or turn on a landing, or wind. What is drawn is the same for the same seed
+    and name.
+    """
+
+    kind: Literal["flights"]
+    """Which kind of element it is."""
+    shapes: Annotated[tuple[FlightShape, ...], Field(strict=False, min_length=1, max_length=4)] = (
+        FLIGHT_SHAPES
+    )
+    """How they may lead up: straight, with a quarter turn (l) or half a turn (u) on a landing, or
+    winding."""
+    rise: Annotated[tuple[Rise, Rise], Field(strict=False)] = (0.015, 0.050)
+    """Least and largest height of a step that is meant to be climbed, m."""
+    tread: Annotated[tuple[Tread, Tread], Field(strict=False)] = (0.11, 0.25)
+    """Least and largest depth of a tread, m; of winding ones of the usable part."""
+    things: Annotated[tuple[FlightThing, ...], Field(strict=False, max_length=3)] = FLIGHT_THINGS
+    """What they may have: cheeks or rails beside the steps, a door on a landing or on the top."""
+    down: Fraction = 0.5
+    """The share of seeds in which the start is on the top, and the goal on the ground."""
+    closed: Fraction = 0.15
+    """The share of seeds in which no way leads to the goal: a step too high, a door shut, too
+    narrow or too low."""
+
+    @model_validator(mode="after")
+    def _is_ordered(self) -> Self:
+        for key, (least, most) in (("rise", self.rise), ("tread", self.tread)):
+            if least > most:
+                raise PydanticCustomError(
+                    "order", "must be the least and then the largest", {"key": key}
+                )
         return self

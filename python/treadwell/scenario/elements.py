@@ -5,9 +5,9 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from treadwell.scenario.drawn_elements import House, Scatter, Yard
+from treadwell.scenario.drawn_elements import Flights, House, Scatter, Yard
 from treadwell.scenario.element_table import ElementTable
-from treadwell.scenario.ground_elements import Patch, Terrain, Vegetation
+from treadwell.scenario.ground_elements import Patch, Slabs, Terrain, Vegetation
 from treadwell.scenario.types import (
     MOST_STEPS,
     Angle,
@@ -255,10 +255,12 @@ Element = Annotated[
     | Patch
     | Vegetation
     | Terrain
+    | Slabs
     | Mesh
     | Scatter
     | House
     | Yard
+    | Flights
     | Mjcf,
     Field(discriminator="kind"),
 ]
@@ -284,8 +286,10 @@ ELEMENTS: dict[str, type[ElementTable]] = {
     "scatter": Scatter,
     "house": House,
     "yard": Yard,
+    "flights": Flights,
     "vegetation": Vegetation,
     "terrain": Terrain,
+    "slabs": Slabs,
     "mjcf": Mjcf,
 }
 """Kind -> model."""

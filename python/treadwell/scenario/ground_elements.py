@@ -1,4 +1,4 @@
-"""Elements that are ground of another kind: slippery patches, vegetation, terrain."""
+"""Elements that are ground of another kind: slippery patches, vegetation, terrain, slabs."""
 
 from typing import Annotated, Final, Literal, Self
 
@@ -23,6 +23,10 @@ MOST_STEMS: Final = 20_000
 WAVELENGTH_M: Final = 0.8
 """Of a terrain that is drawn, where nothing is said."""
 SHORTEST_WAVE_M: Final = 0.05
+MOST_SLABS: Final = 1000
+"""Slabs of one element: each is a piece of the course."""
+STEEPEST_SLAB: Final = 0.5
+"""Radians: no slab is tilted by more."""
 WAVES: Final = 100.0
 """Wavelengths along a side of a terrain that is drawn, at most."""
 
@@ -115,3 +119,41 @@ class Terrain(ElementTable):
     def drawn_wavelength(self) -> float:
         """Return the wavelength that it is drawn with, m."""
         return WAVELENGTH_M if self.wavelength is None else self.wavelength
+
+
+class Slabs(ElementTable):
+    """Slabs side by side, each tilted its own way, that are walked on. Position: their centre.
+
+    Heights and tilts are drawn from the seed and the name.
+    """
+
+    kind: Literal["slabs"]
+    """Which kind of element it is."""
+    position: Point2 = (1.5, 0.0)
+    """Their centre: world x, y, m."""
+    yaw: Angle = 0.0
+    """Heading of their length, rad."""
+    size: Size2 = (1.8, 0.9)
+    """Length and width of the ground that they cover, m."""
+    edge: Length = 0.3
+    """Length and width of one slab, m; as near to it as fits in."""
+    rise: Rise = 0.045
+    """No place of a slab is higher above the ground, m."""
+    tilt: Annotated[float, Field(ge=0.0, le=STEEPEST_SLAB)] = 0.14
+    """No slab is tilted by more, rad; less where it would leave the ground or be too high."""
+
+    @model_validator(mode="after")
+    def _can_be_laid(self) -> Self:
+        rows, columns = self.counts()
+        if rows * columns > MOST_SLABS:
+            raise PydanticCustomError(
+                "edge",
+                "must make at most {most} slabs of this size, not {slabs}",
+                {"key": "edge", "most": MOST_SLABS, "slabs": rows * columns},
+            )
+        return self
+
+    def counts(self) -> tuple[int, int]:
+        """Return how many slabs lie along its length and across, one at least."""
+        length, width = (max(1, round(extent / self.edge)) for extent in self.size)
+        return length, width

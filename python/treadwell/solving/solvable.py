@@ -13,6 +13,7 @@ import numpy as np
 
 from treadwell.course.course import LEVEL_TOLERANCE, Course
 from treadwell.course.outlines import Floats
+from treadwell.course.pieces import Top
 from treadwell.robot.load import Robot
 from treadwell.scenario.events import Kidnap
 from treadwell.scenario.model import Scenario
@@ -21,6 +22,10 @@ from treadwell.solving.robot_limits import Limits, limits_of
 from treadwell.solving.true_ground import Mask, TrueGround, edges_of
 from treadwell.solving.true_solids import BARELY
 
+SLABS: Final = "slabs"
+"""Kind of the elements whose tops are tilted against each other."""
+STONE: Final = "platform"
+"""Kind of an element that can be a stone for one foot; steps of stairs are too narrow then."""
 EVERY: Final = 0.08
 """Metres between two lines over the same edge."""
 
@@ -28,7 +33,8 @@ EVERY: Final = 0.08
 def is_solvable(scenario: Scenario, course: Course, robot: Robot) -> bool | None:
     """Say whether a way leads from the start over all points to pass to the goal.
 
-    None where the robot is carried elsewhere on the way: from where, the search does not know.
+    None where the search does not know: the robot is carried elsewhere on the way, or a way that
+    it does not find may lead over stones with room for one foot, or over slabs.
 
     Args:
         scenario: as it is run.
@@ -45,10 +51,25 @@ def is_solvable(scenario: Scenario, course: Course, robot: Robot) -> bool | None
     stand = ground.standing(limits.pair / 2, limits.floor_max)
     reached = _reached(ground, stand, limits, _start(ground, stand, scenario, course))
     heights = [None] * len(scenario.goal.via) + [scenario.goal.height]
-    return all(
+    found = all(
         _holds(ground, reached, stop, scenario.goal.radius, height)
         for stop, height in zip(stops[1:], heights, strict=True)
     )
+    return None if not found and _asks_for_single_feet(course, limits) else found
+
+
+def _asks_for_single_feet(course: Course, limits: Limits) -> bool:
+    """Say whether feet might go where the search, which keeps them side by side, does not look."""
+    return any(
+        element.kind == SLABS or (element.kind == STONE and _carries_one_foot(top, limits))
+        for element, top in course.tops()
+    )
+
+
+def _carries_one_foot(top: Top, limits: Limits) -> bool:
+    """Say whether a top has room for a sole, but in no direction for both feet side by side."""
+    longest = max(float(np.linalg.norm(end - begin)) for begin, end, _ in edges_of(top))
+    return limits.sole <= longest < 2 * limits.half_width
 
 
 def _start(ground: TrueGround, stand: Mask, scenario: Scenario, course: Course) -> set[Node]:

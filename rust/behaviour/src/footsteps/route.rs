@@ -154,6 +154,7 @@ pub(super) fn told(step: &PlannedFootstep) -> Footstep {
         pose: step.pose,
         height_m: f64::from(step.foothold.height_m),
         bearing_m: step.foothold.bearing_m.map(f64::from),
+        manner: step.manner,
     }
 }
 

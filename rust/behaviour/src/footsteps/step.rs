@@ -81,6 +81,7 @@ impl Footsteps {
             pose,
             height_m,
             bearing_m: landing.bearing_m,
+            manner: StepManner::Walked,
         })
     }
 

@@ -1,0 +1,1 @@
+"""The experiment `footsteps`: courses on which every foot has to be planned."""
