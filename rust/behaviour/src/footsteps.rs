@@ -28,6 +28,7 @@ use crate::{
 pub use config::SteppingConfig;
 use route::{CostToGo, Failed};
 pub(crate) use state::State;
+use walk::Lead;
 
 /// How it is listed and made.
 pub(crate) const PART: BehaviourPart = Part {
@@ -55,6 +56,8 @@ pub struct Footsteps {
     ground: GroundMap,
     /// Where feet found no ground, or met something.
     failed: Failed,
+    /// The walk to the next height change.
+    lead: Option<Lead>,
     /// How far it has come.
     to_go: CostToGo,
     /// Looks since the last step.
@@ -88,6 +91,7 @@ impl Footsteps {
             config,
             walking,
             failed: Failed::default(),
+            lead: None,
             to_go: CostToGo::default(),
             looks: 0,
             given_up: (0, None),

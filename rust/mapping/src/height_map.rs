@@ -14,6 +14,9 @@ pub struct HeightMap {
 }
 
 impl HeightMap {
+    /// Height of what is never stepped on though nothing stands there, m: lower than any ground.
+    pub const BOTTOMLESS_M: f32 = -1e3;
+
     /// A map of these heights, m, NaN or infinite where nothing was seen, all as sure as this, m.
     pub fn new(lattice: Lattice, mut heights_m: Grid<f32>, sigma_m: f32) -> Self {
         for height_m in heights_m.values_mut() {

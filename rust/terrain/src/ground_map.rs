@@ -218,21 +218,30 @@ impl GroundMap {
                 return Some(self.out_of_reach_m(top_m, cell));
             }
         }
-        highest_m.or_else(|| {
-            // Beside an edge that is known lies what is not at that edge's height.
-            let ends = |height_m: f32| {
-                told.iter()
-                    .any(|one| (one.height_m - height_m).abs() <= level_m)
-            };
-            let beside = self
-                .around(cell, 2)
-                .filter(|&(_, height_m)| !ends(height_m));
-            let nearest = beside.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-            nearest.map(|(_, height_m)| height_m).or(match plain {
-                Plain::Level(height_m) => Some(height_m),
-                _ => None,
-            })
-        })
+        match (highest_m, plain) {
+            (Some(height_m), _) => Some(height_m),
+            (None, Plain::Level(height_m)) => Some(height_m),
+            (None, _) => self.beside_m(cell, told, at_m),
+        }
+    }
+
+    /// The height at a place beside stairs, m: beyond an edge that is known lies what is not at that stair's height. Where no edge is known,
+    /// what the map has, unless legs could step there.
+    fn beside_m(&self, cell: Cell, told: &[Told], at_m: [f64; 2]) -> Option<f32> {
+        let level_m = self.config.level as f32;
+        let ended = |height_m: f32| {
+            let same = |one: &&Told| (one.height_m - height_m).abs() <= level_m;
+            told.iter().filter(same).any(|one| one.ends_before(at_m))
+        };
+        if !told.iter().any(|one| one.ends_before(at_m)) {
+            let plain = self.plain.get(cell).copied().unwrap_or(Plain::Unseen);
+            return self.plain_height_m(plain, cell);
+        }
+        let beside = self
+            .around(cell, 2)
+            .filter(|&(_, height_m)| !ended(height_m));
+        let nearest = beside.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        nearest.map(|(_, height_m)| height_m)
     }
 
     /// Ground in and around a cell: how far away, cells squared, and how high, m.

@@ -119,8 +119,14 @@ impl Footsteps {
                 tick.elapsed_s, self.looks
             );
         }
+        let unseen_m = at_m.filter(|_| self.failed.unseen() < self.config.longer as usize);
         if self.looks > self.config.tries {
             self.give_up(tick, reason);
+        } else if let Some(unseen_m) = unseen_m.filter(|_| self.looks == self.config.tries) {
+            // What cannot be seen from here leads nowhere; there may be other ways.
+            self.failed.note_unseen(unseen_m);
+            self.looks = 0;
+            self.plan_steps(tick);
         } else if self.looks > 1 {
             let at_m = at_m.unwrap_or(tick.goal_m());
             self.head.search(tick.bearing_rad(at_m));

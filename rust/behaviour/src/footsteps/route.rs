@@ -12,31 +12,53 @@ use super::Footsteps;
 use crate::machine::Tick;
 use crate::{Footstep, Misstep};
 
-/// Where feet found no ground, or met something: nothing is planned there until the robot walks again.
+/// Where feet found no ground, or met something, and what stayed unseen from near by: nothing is planned there until the robot walks again.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Failed(Vec<(Footstep, Misstep)>);
+pub(super) struct Failed {
+    feet: Vec<(Footstep, Misstep)>,
+    /// Places that were looked at and stayed unseen, m.
+    unseen_m: Vec<[f64; 2]>,
+}
 
 impl Failed {
     /// A foot that was to land here did not.
     pub(super) fn note(&mut self, hold: Footstep, misstep: Misstep) {
-        self.0.push((hold, misstep));
+        self.feet.push((hold, misstep));
+    }
+
+    /// A place that was looked at stayed unseen, m.
+    pub(super) fn note_unseen(&mut self, place_m: [f64; 2]) {
+        self.unseen_m.push(place_m);
+    }
+
+    /// How many places stayed unseen.
+    pub(super) fn unseen(&self) -> usize {
+        self.unseen_m.len()
     }
 
     /// What was noted counts no more.
     pub(super) fn forget(&mut self) {
-        self.0.clear();
+        *self = Self::default();
     }
 
     /// How often a foot failed.
     pub(super) fn count(&self) -> usize {
-        self.0.len()
+        self.feet.len()
     }
 
     /// Moves the ground under soles that failed out of reach: down where there was none, up where something was in the way.
     fn take_from(&self, map: &mut HeightMap, limits: &StepLimits) {
         let half_m = [0.5 * limits.sole.length_m, 0.5 * limits.sole.width_m];
         let out_of_reach_m = 2.0 * limits.careful_rise_m;
-        for (hold, misstep) in &self.0 {
+        for &[x_m, y_m] in &self.unseen_m {
+            let place = PlanarPose::new(x_m, y_m, 0.0);
+            for cell in cells_under(map, &place, [half_m[0]; 2]) {
+                if map.height_m(cell).is_none() {
+                    map.set(cell, HeightMap::BOTTOMLESS_M, 0.0);
+                }
+            }
+        }
+        for (hold, misstep) in &self.feet {
             let height_m = match misstep {
                 Misstep::NoGround => hold.height_m - out_of_reach_m,
                 Misstep::Obstructed => hold.height_m + out_of_reach_m,

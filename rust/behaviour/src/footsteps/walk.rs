@@ -1,10 +1,56 @@
 //! The state `walk`: the walk to the next height change, or to the goal.
 
+use planning::footsteps::{FootstepPlan, StepManner};
 use planning::{Path, Plan};
 
 use super::{Footsteps, State};
 use crate::machine::Tick;
 use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
+
+/// The walk before the next height change.
+#[derive(Debug, Clone)]
+pub(super) struct Lead {
+    /// A plan for `walking` up to there.
+    plan: Plan,
+    /// How far it is, m.
+    step_away_m: f64,
+}
+
+impl Lead {
+    /// Along the first steps of a plan, as far as they are walked.
+    fn along(plan: &FootstepPlan, tick: &Tick<'_>) -> Option<Self> {
+        let careful = (plan.steps.iter()).position(|step| step.manner == StepManner::Careful);
+        let walked = &plan.steps[..careful.unwrap_or(plan.steps.len())];
+        let mut feet = Footsteps::soles(tick);
+        let mut points_m = vec![[tick.pose.x_m, tick.pose.y_m]];
+        for step in walked {
+            feet[step.side.index()] = step.pose;
+            let [left, right] = &feet;
+            points_m.push([
+                f64::midpoint(left.x_m, right.x_m),
+                f64::midpoint(left.y_m, right.y_m),
+            ]);
+        }
+        let along_m = points_m
+            .windows(2)
+            .map(|pair| geometry::distance_m(pair[0], pair[1]));
+        let step_away_m = along_m.sum();
+        let count = points_m.len();
+        let path = Path {
+            points_m,
+            unknown: vec![false; count],
+            clearance_m: vec![f64::INFINITY; count],
+            ..Path::default()
+        };
+        (count > 1 || careful.is_some()).then_some(Self {
+            plan: Plan {
+                way: Ok(path),
+                replanned: false,
+            },
+            step_away_m,
+        })
+    }
+}
 
 impl Footsteps {
     /// Lets `walking` decide again.
@@ -18,30 +64,80 @@ impl Footsteps {
     /// One tick of `walking`, on the way to the next height change or to the goal.
     pub(super) fn walk(&mut self, tick: &Tick<'_>) -> Result<Decision, BehaviourError> {
         let situation = tick.situation;
-        let looking = self.walking.is_looking_around();
-        let steps_here = !looking && !situation.estimate.lost && !self.has_given_up_here(tick);
-        let climb_away_m = climb_away_m(tick);
-        if steps_here && climb_away_m.is_some_and(|away_m| away_m < self.config.stop_before) {
-            self.head.gazer.start(situation.gaze);
-            self.begin_look(tick, None);
-            return Ok(self.decision(tick, Motion::Stand));
+        let steps_here = !situation.estimate.lost && !self.has_given_up_here(tick);
+        if tick.new_frame {
+            self.lead = if steps_here {
+                self.find_lead(tick)
+            } else {
+                None
+            };
         }
-        let cut = climb_away_m.and_then(|_| self.cut_plan(tick));
+        let looking = self.walking.is_looking_around();
+        if looking && self.lead.is_some() && self.machine.lasted_s() > self.config.first_look {
+            self.walking.end_look();
+        }
+        let lead = self.lead.as_ref().filter(|_| !looking);
+        if lead.is_some_and(|lead| lead.step_away_m < self.config.stop_before) {
+            return Ok(self.stop_to_step(tick));
+        }
+        let led = lead.map(|lead| &lead.plan);
+        let (led, plan) = (led.is_some(), led.or(situation.plan));
         let decision = self.walking.next(&Situation {
-            plan: cut.as_ref().or(situation.plan),
-            last_goal: situation.last_goal && cut.is_none(),
+            plan,
+            last_goal: situation.last_goal && !led,
             ..*situation
         })?;
         let refuses = matches!(decision.outcome, Some(Outcome::Refused(_)));
-        let no_way = self.walking.no_way_s() > self.config.no_way_after && tick.situation.standing;
-        if steps_here && tick.finds_no_way() && (refuses || no_way) {
-            self.head.gazer.start(situation.gaze);
-            self.begin_look(tick, None);
-            return Ok(self.decision(tick, Motion::Stand));
+        let no_way = self.walking.no_way_s() > self.config.no_way_after && situation.standing;
+        if steps_here && !looking && tick.finds_no_way() && (refuses || no_way) {
+            return Ok(self.stop_to_step(tick));
         }
         Ok(Decision {
-            goal_passed: decision.goal_passed && cut.is_none(),
+            goal_passed: decision.goal_passed && !led,
             ..decision
+        })
+    }
+
+    fn stop_to_step(&mut self, tick: &Tick<'_>) -> Decision {
+        self.lead = None;
+        self.head.gazer.start(tick.situation.gaze);
+        self.begin_look(tick, None);
+        self.decision(tick, Motion::Stand)
+    }
+
+    /// Where the walk leads to the first height change: by the footsteps that are planned to the goal, where the planner's way there is not
+    /// level all along; else along the planner's way. Planned anew every few frames.
+    fn find_lead(&mut self, tick: &Tick<'_>) -> Option<Lead> {
+        let way = tick.situation.plan.and_then(|plan| plan.way.as_ref().ok());
+        let level = way.is_some_and(|path| path.climbs.is_empty() && path.end.is_certain());
+        if level && !self.goal_is_elsewhere(tick) {
+            return None;
+        }
+        if !tick
+            .situation
+            .frames_used
+            .is_multiple_of(self.config.plan_every)
+        {
+            return self.lead.take();
+        }
+        let feet = Self::soles(tick);
+        self.read_ground(tick, &feet);
+        let found = self.plan_from(tick, feet, None).ok();
+        let by_steps = found.filter(|plan| plan.exit_m.is_none() || way.is_none());
+        by_steps
+            .and_then(|plan| Lead::along(&plan, tick))
+            .or_else(|| self.lead_of_planner(tick))
+    }
+
+    fn goal_is_elsewhere(&self, tick: &Tick<'_>) -> bool {
+        tick.goal_off_level_m()
+            .is_some_and(|off_m| off_m > self.told_m)
+    }
+
+    fn lead_of_planner(&self, tick: &Tick<'_>) -> Option<Lead> {
+        Some(Lead {
+            step_away_m: climb_away_m(tick)?,
+            plan: self.cut_plan(tick)?,
         })
     }
 

@@ -174,8 +174,8 @@ impl GoalField {
                 let level_m = level_of(map, Cell::new(col * side, row * side), side);
                 let [x_m, y_m] = self.lattice.center_of(Cell::new(col, row));
                 let body_m = level_m + limits.body_from_m as f32;
-                let no_room =
-                    blocks.is_higher_within(map, [x_m, y_m], limits.body_radius_m, body_m);
+                let no_room = level_m <= HeightMap::BOTTOMLESS_M
+                    || blocks.is_higher_within(map, [x_m, y_m], limits.body_radius_m, body_m);
                 self.levels_m
                     .push(if no_room { f32::INFINITY } else { level_m });
             }

@@ -112,7 +112,8 @@ impl StepLimits {
             && self.stretch(step.x_m, across_m, self.walked_reach_m()) < 1.0 + ROUNDING;
         let careful = self.stretch(step.x_m, across_m, self.careful_reach_m()) < 1.0 + ROUNDING;
         match (within, walked, careful) {
-            (true, true, _) => Some(StepReach::Walking),
+            (true, true, true) => Some(StepReach::Walking),
+            (true, true, false) => Some(StepReach::WalkingOnly),
             (true, false, true) => Some(StepReach::Careful),
             _ => None,
         }
@@ -160,4 +161,6 @@ pub enum StepReach {
     Walking,
     /// Only a careful step goes there.
     Careful,
+    /// No careful step goes there: it is wider than those are.
+    WalkingOnly,
 }

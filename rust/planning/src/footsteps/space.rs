@@ -135,10 +135,12 @@ impl FootstepSpace<'_> {
             return None;
         }
         let level = rise_m.abs().max(lift_m.abs()) <= config.walk_height;
-        let (manner, clearance_m) = if level && reach == StepReach::Walking {
-            (StepManner::Walked, limits.clearance_m[0])
-        } else {
-            (StepManner::Careful, limits.clearance_m[1])
+        let (manner, clearance_m) = match (level, reach) {
+            (true, StepReach::Walking | StepReach::WalkingOnly) => {
+                (StepManner::Walked, limits.clearance_m[0])
+            }
+            (false, StepReach::WalkingOnly) => return None,
+            (false, _) | (true, StepReach::Careful) => (StepManner::Careful, limits.clearance_m[1]),
         };
         let lifted_m = height_m(&there).max(height_m(moving)) + clearance_m - config.way_margin;
         let seen = (self.map, self.blocks);

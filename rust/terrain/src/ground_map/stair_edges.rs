@@ -17,12 +17,19 @@ pub(super) struct Told {
     outline: StairOutline,
     /// Its height, m.
     pub(super) height_m: f32,
+    /// Whether each side is its own end, as the outline counts them; else only a view ended there.
+    ends: [bool; 4],
 }
 
 impl Told {
     /// Whether a place lies within its edges.
     pub(super) fn covers(&self, at_m: [f64; 2]) -> bool {
         self.outline.outside_m(at_m) <= 0.0
+    }
+
+    /// Whether a place lies beyond an end that is its own.
+    pub(super) fn ends_before(&self, at_m: [f64; 2]) -> bool {
+        !self.covers(at_m) && self.ends[self.outline.nearest_side(at_m)]
     }
 }
 
@@ -35,6 +42,12 @@ impl StairEdges {
         self.all.extend(stairs.stairs.iter().map(|stair| Told {
             outline: StairOutline::of(stair),
             height_m: stair.height_m() as f32,
+            ends: [
+                stair.seen_ends.right > 0,
+                stair.back_fit.is_some() || stair.seen_ends.back > 0,
+                stair.seen_ends.left > 0,
+                stair.front_fit.is_some() || stair.seen_ends.front > 0,
+            ],
         }));
     }
 

@@ -54,7 +54,9 @@ proptest! {
         let view = view(|x_m, _| Surface::Floor(true_m(x_m) as f32));
         let steps = (0..3).map(|step| {
             let (at_m, depth_m) = (first_m + f64::from(step) * tread_m, if step < 2 { tread_m } else { 0.6 });
-            stair(at_m, depth_m, rise_m * f64::from(step + 1), 1.2)
+            let mut step = stair(at_m, depth_m, rise_m * f64::from(step + 1), 1.2);
+            (step.seen_ends.front, step.seen_ends.back) = (20, 20);
+            step
         });
         let map = read(&view, steps.collect());
         let cell_m = map.lattice.cell_m;
@@ -86,6 +88,18 @@ fn a_stair_whose_height_the_map_does_not_have_is_not_believed() {
     let floor = view(|_, _| Surface::Floor(0.0));
     let map = read(&floor, vec![stair(0.5, 0.3, 0.06, 0.8)]);
     assert_eq!(height_m(&map, 0.6, 0.0), Some(0.0));
+}
+
+#[test]
+fn where_only_a_view_of_a_platform_ended_the_platform_goes_on() {
+    let view = view(|x_m, _| Surface::Floor(if x_m > 0.42 { 0.18 } else { 0.0 }));
+    let mut part = stair(0.42, 0.6, 0.18, 0.4);
+    part.seen_ends.front = 20;
+    let map = read(&view, vec![part]);
+    for y_m in [0.0, 0.21, 0.25, 0.6] {
+        assert_eq!(height_m(&map, 0.48, y_m), Some(0.18), "{y_m}");
+        assert_eq!(height_m(&map, 0.36, y_m), Some(0.0), "{y_m}");
+    }
 }
 
 #[test]
