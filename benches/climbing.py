@@ -17,6 +17,10 @@ STRIDE_M = 0.08
 """On one tread."""
 RUN_M = 0.6
 """Level ground before the first and behind the last edge."""
+LISTED = 12
+"""Steps of a list on level ground."""
+CAREFUL = 0.4
+"""Share of them that are careful."""
 
 Footstep = tuple[str, float, float, float, float, float, float, str]
 Pose = tuple[float, float, float]
@@ -129,6 +133,25 @@ def alternating(treads: list[Tread]) -> list[list[tuple[str, Stand]]]:
     steps = [(sides[index % 2], stand) for index, stand in enumerate(stands(treads))]
     last, stand = steps[-1]
     return [[*steps, ("right" if last == "left" else "left", stand)]]
+
+
+def level_steps(rng: np.random.Generator) -> list[Footstep]:
+    """Steps forward and back, aside and turning, walked and careful; the last feet together."""
+    steps: list[Footstep] = []
+    feet = {"left": (0.0, STANCE_M / 2, 0.0), "right": (0.0, -STANCE_M / 2, 0.0)}
+    turn, begins = rng.uniform(-0.12, 0.12), rng.integers(2)
+    for index in range(LISTED):
+        side, sign = (("left", 1.0), ("right", -1.0))[(index + begins) % 2]
+        x, y, yaw = feet["right" if side == "left" else "left"]
+        last = index + 1 == LISTED
+        ahead = 0.0 if last else rng.uniform(-0.03, 0.07)
+        aside = sign * (STANCE_M + (0.0 if last else rng.uniform(0.0, 0.03)))
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        turned = yaw + (0.0 if last else 2.0 * sign * max(0.0, sign * turn))
+        feet[side] = (x + cos * ahead - sin * aside, y + sin * ahead + cos * aside, turned)
+        manner = "careful" if rng.random() < CAREFUL else "walked"
+        steps.append((side, *feet[side], 0.0, -HALF_SOLE_M, HALF_SOLE_M, manner))
+    return steps
 
 
 class Climber:

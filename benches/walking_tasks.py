@@ -6,7 +6,18 @@ from dataclasses import dataclass, field
 from typing import cast
 
 import numpy as np
-from climbing import Climber, Errors, Footstep, Tread, alternating, course, pairs, seen
+from climbing import (
+    LISTED,
+    Climber,
+    Errors,
+    Footstep,
+    Tread,
+    alternating,
+    course,
+    level_steps,
+    pairs,
+    seen,
+)
 
 STARTS_S = 0.5
 WALKING_MPS = 0.1
@@ -87,6 +98,16 @@ def stop(rng: np.random.Generator, _job: Job) -> Plan:
     walk = (rng.uniform(-0.08, 0.12), rng.uniform(-0.1, 0.1), rng.uniform(-0.4, 0.4))
     until = rng.uniform(1.5, 4.0)
     return Plan([(STARTS_S, walk), (until, None)], until + 4.0)
+
+
+def listed(rng: np.random.Generator, _job: Job) -> Plan:
+    return Plan([(STARTS_S, level_steps(rng))], STARTS_S + 1.3 * LISTED + 2.0)
+
+
+def listed_stop(rng: np.random.Generator, _job: Job) -> Plan:
+    """Take a list and stop at any phase of a step."""
+    until = rng.uniform(1.0, 7.0)
+    return Plan([(STARTS_S, level_steps(rng)), (until, None)], until + 4.0)
 
 
 def push(rng: np.random.Generator, job: Job, direction: float) -> Plan:
@@ -255,6 +276,8 @@ TASKS: dict[str, Callable[[np.random.Generator, Job], Plan]] = {
     "turn": turn,
     "side": side,
     "stop": stop,
+    "listed": listed,
+    "listed_stop": listed_stop,
     "push_any": push_any,
     "push_sagittal": push_sagittal,
     "push_sideways": push_sideways,
