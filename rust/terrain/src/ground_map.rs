@@ -1,7 +1,7 @@
 //! Where the ground is, fine enough for a sole: the heights of the map, cut along the edges of the stairs that were recognised.
 //!
-//! The map knows heights well and edges to a cell; the recogniser knows edges to millimetres, and may take a view's end for one. So a
-//! stair is believed only where the map has its height, and the map only where no edge runs through its cells.
+//! The map knows heights well, and to a cell where they end; the recognizer knows edges to millimetres. So a place beside an edge has the
+//! height of the nearest cell on its side of that, and where heights end at no edge that is known, the ground is not known.
 
 mod config;
 mod stair_edges;
@@ -11,7 +11,10 @@ use mapping::{FloorView, HeightMap, Surface};
 use stairs::Staircase;
 
 pub use config::GroundMapConfig;
-use stair_edges::{StairEdges, Told};
+use stair_edges::{KnownEdge, StairEdges};
+
+/// An edge matters to cells whose middle is no more than so many cells away: a cell that it runs through, and those beside that.
+const NEAR_CELLS: f64 = 2.0;
 
 /// What a sole stands on now.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -157,16 +160,20 @@ impl GroundMap {
     /// Fills the fine cells of one cell of the view.
     fn fill(&mut self, cell: Cell, middle_m: [f64; 2], fine: i32) {
         let plain = self.plain.get(cell).copied().unwrap_or(Plain::Unseen);
-        let told = self.edges.near(middle_m);
+        let cell_m = self.map.lattice.cell_m * f64::from(fine);
+        let edges = match plain {
+            Plain::Border(_) => self.edges.near(middle_m, NEAR_CELLS * cell_m),
+            _ => Vec::new(),
+        };
         let sigma_m = self.config.sigma as f32;
         for row in 0..fine {
             for col in 0..fine {
                 let at = Cell::new(cell.col * fine + col, cell.row * fine + row);
-                let height_m = match plain {
-                    _ if told.is_empty() => self.plain_height_m(plain, cell),
-                    plain => {
-                        self.cut_height_m((plain, cell), &told, self.map.lattice.center_of(at))
-                    }
+                let height_m = if edges.is_empty() {
+                    self.plain_height_m(plain, cell)
+                } else {
+                    let at_m = self.map.lattice.center_of(at);
+                    self.cut_height_m((cell, middle_m, cell_m), &edges, at_m)
                 };
                 if let Some(height_m) = height_m {
                     self.map.set(at, height_m, sigma_m);
@@ -175,7 +182,8 @@ impl GroundMap {
         }
     }
 
-    /// The height where no stair is near, m. Where in a cell two levels meet is not known: none, where legs could step from one to the other.
+    /// The height where no known edge is near, m. Where in a cell two levels meet is not known: none, where legs could step from one to the
+    /// other.
     fn plain_height_m(&self, plain: Plain, cell: Cell) -> Option<f32> {
         match plain {
             Plain::Unseen => None,
@@ -192,65 +200,35 @@ impl GroundMap {
         }
     }
 
-    /// The height at a place that stairs are near to, m.
+    /// The height at a place beside known edges, m: that of the nearest cell of the map that no edge separates from it.
     fn cut_height_m(
         &self,
-        (plain, cell): (Plain, Cell),
-        told: &[Told],
+        (cell, middle_m, cell_m): (Cell, [f64; 2], f64),
+        edges: &[KnownEdge],
         at_m: [f64; 2],
     ) -> Option<f32> {
-        let level_m = self.config.level as f32;
-        let vouched = |height_m: f32| {
-            let same = |(_, other_m): (i32, f32)| (other_m - height_m).abs() <= level_m;
-            self.around(cell, 1).any(same)
+        let middle_of = |[cols, rows]: [i32; 2]| {
+            [
+                middle_m[0] + cell_m * f64::from(cols),
+                middle_m[1] + cell_m * f64::from(rows),
+            ]
         };
-        let over = told
-            .iter()
-            .filter(|one| one.covers(at_m) && vouched(one.height_m));
-        let highest_m = over.map(|one| one.height_m).reduce(f32::max);
-        if let Plain::Obstacle(top_m) = plain {
-            let riser_m = told
-                .iter()
-                .map(|one| one.height_m)
-                .fold(f32::NEG_INFINITY, f32::max)
-                + self.rise_m;
-            if top_m > riser_m {
-                return Some(self.out_of_reach_m(top_m, cell));
-            }
-        }
-        match (highest_m, plain) {
-            (Some(height_m), _) => Some(height_m),
-            (None, Plain::Level(height_m)) => Some(height_m),
-            (None, _) => self.beside_m(cell, told, at_m),
-        }
+        let beside = self.around(cell, 2).map(|(by, height_m)| {
+            let other_m = middle_of(by);
+            (geometry::distance_m(other_m, at_m), other_m, height_m)
+        });
+        let joined = beside
+            .filter(|&(_, other_m, _)| !edges.iter().any(|edge| edge.separates(at_m, other_m)));
+        let nearest = joined.min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.total_cmp(&b.2)));
+        nearest.map(|(_, _, height_m)| height_m)
     }
 
-    /// The height at a place beside stairs, m: beyond an edge that is known lies what is not at that stair's height. Where no edge is known,
-    /// what the map has, unless legs could step there.
-    fn beside_m(&self, cell: Cell, told: &[Told], at_m: [f64; 2]) -> Option<f32> {
-        let level_m = self.config.level as f32;
-        let ended = |height_m: f32| {
-            let same = |one: &&Told| (one.height_m - height_m).abs() <= level_m;
-            told.iter().filter(same).any(|one| one.ends_before(at_m))
-        };
-        if !told.iter().any(|one| one.ends_before(at_m)) {
-            let plain = self.plain.get(cell).copied().unwrap_or(Plain::Unseen);
-            return self.plain_height_m(plain, cell);
-        }
-        let beside = self
-            .around(cell, 2)
-            .filter(|&(_, height_m)| !ended(height_m));
-        let nearest = beside.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        nearest.map(|(_, height_m)| height_m)
-    }
-
-    /// Ground in and around a cell: how far away, cells squared, and how high, m.
-    fn around(&self, cell: Cell, cells: i32) -> impl Iterator<Item = (i32, f32)> + '_ {
+    /// Ground in and around a cell: how many columns and rows away, and how high, m.
+    fn around(&self, cell: Cell, cells: i32) -> impl Iterator<Item = ([i32; 2], f32)> + '_ {
         let area = CellArea::of(cell).grown(cells).within(self.plain.area());
         area.cells().filter_map(move |other| {
-            let (cols, rows) = (other.col - cell.col, other.row - cell.row);
             let height_m = self.plain.get(other)?.ground_m()?;
-            Some((cols * cols + rows * rows, height_m))
+            Some(([other.col - cell.col, other.row - cell.row], height_m))
         })
     }
 

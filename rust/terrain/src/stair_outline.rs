@@ -57,20 +57,6 @@ impl StairOutline {
         furthest
     }
 
-    /// The side that a place is furthest beyond: 0 right, 1 back, 2 left, 3 front.
-    pub(crate) fn nearest_side(&self, [x, y]: [f64; 2]) -> usize {
-        let mut furthest = (f64::NEG_INFINITY, 0);
-        for (index, (from, (side, length))) in self.corners_m.iter().zip(self.sides).enumerate() {
-            if length > NO_SIDE_M {
-                let beyond = ((x - from[0]) * side[1] - (y - from[1]) * side[0]) / length;
-                if beyond > furthest.0 {
-                    furthest = (beyond, index);
-                }
-            }
-        }
-        furthest.1
-    }
-
     /// Whether a corner of another outline lies in this one, or no further from it than this, m.
     pub(crate) fn has_corner_near(&self, other: &Self, near_m: f64) -> bool {
         other

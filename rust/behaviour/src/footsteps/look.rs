@@ -52,8 +52,12 @@ impl Footsteps {
         let feet = Self::soles(tick);
         self.read_ground(tick, &feet);
         match self.plan_from(tick, feet, None) {
-            Ok(plan) if !plan.steps.is_empty() => self.take(tick, &plan),
-            Ok(FootstepPlan { exit_m: None, .. }) => self.arrive(tick),
+            Ok(plan) if !plan.steps.is_empty() && self.gets_on(&plan) => self.take(tick, &plan),
+            Ok(FootstepPlan {
+                exit_m: None,
+                steps,
+                ..
+            }) if steps.is_empty() => self.arrive(tick),
             Ok(plan) => self.look_in_vain(tick, plan.exit_m, || {
                 "blocked: what lies ahead could not be seen".to_owned()
             }),
@@ -89,7 +93,6 @@ impl Footsteps {
             }
         }
         self.stepper.start(holds.collect(), &tick.pose, ground_m);
-        let _ = self.gets_on(plan);
         self.planned_at = 0;
         self.enter(State::Step);
     }
@@ -99,6 +102,7 @@ impl Footsteps {
         let (by_s, most) = (self.layer.limits().walked_s, self.config.longer);
         let gets_on = self.to_go.gets_on(plan.whole_s, by_s, most);
         if gets_on {
+            self.looks = 0;
             self.machine.gets_on();
         }
         gets_on

@@ -58,7 +58,14 @@ impl Failed {
                 }
             }
         }
-        for (hold, misstep) in &self.feet {
+        // One failure may be a matter of balance, and the place is looked at again.
+        let again = |hold: &Footstep| {
+            let near = |other: &&(Footstep, Misstep)| {
+                other.0.pose.distance_m(&hold.pose) < limits.sole.length_m
+            };
+            self.feet.iter().filter(near).count() > 1
+        };
+        for (hold, misstep) in self.feet.iter().filter(|(hold, _)| again(hold)) {
             let height_m = match misstep {
                 Misstep::NoGround => hold.height_m - out_of_reach_m,
                 Misstep::Obstructed => hold.height_m + out_of_reach_m,

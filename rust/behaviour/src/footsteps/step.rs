@@ -20,7 +20,6 @@ impl Footsteps {
         }
         if self.stepper.has_begun() && landed > self.planned_at {
             self.planned_at = landed;
-            self.looks = 0;
             self.plan_on(tick, landed);
         }
         match self.stepper.advance(tick.situation, tick.passed_s) {

@@ -1,4 +1,4 @@
-//! Laws that hold for every state of both behaviours.
+//! Laws that hold for every state of all behaviours.
 
 use geometry::{Grid, Lattice, Pose};
 use localization::Estimate;
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use stairs::Staircase;
 
 use super::*;
-use crate::{Gaze, Stepping, climbing, walking};
+use crate::{Gaze, Stepping, climbing, footsteps, walking};
 
 const LIMITS: Limits = Limits {
     blind_after_s: 1.0,
@@ -148,18 +148,21 @@ fn assert_waits_in_bounded_time<S: State>(all: &[S]) {
 fn what_may_follow_is_entered_and_its_time_begins() {
     assert_enters_what_may_follow(&walking::State::all());
     assert_enters_what_may_follow(&climbing::State::all());
+    assert_enters_what_may_follow(&footsteps::State::all());
 }
 
 #[test]
 fn refusing_is_final_and_any_state_that_can_be_interrupted_may_end_so() {
     assert_refusing_is_final(&walking::State::all());
     assert_refusing_is_final(&climbing::State::all());
+    assert_refusing_is_final(&footsteps::State::all());
 }
 
 #[test]
 fn whoever_sees_nothing_or_does_nothing_is_interrupted_in_bounded_time() {
     assert_waits_in_bounded_time(&walking::State::all());
     assert_waits_in_bounded_time(&climbing::State::all());
+    assert_waits_in_bounded_time(&footsteps::State::all());
 }
 
 #[test]

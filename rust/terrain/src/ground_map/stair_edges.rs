@@ -1,59 +1,83 @@
-//! The outlines of all stairs, and which of them are near to a place.
+//! The edges of stairs that are known: where ground of one height ends.
 
-use stairs::Staircase;
+use geometry::{Map, Point};
+use stairs::{Stair, Staircase};
 
-use crate::StairOutline;
-
-/// The outlines of all stairs.
+/// The known edges of all stairs.
 #[derive(Debug, Clone, Default)]
-pub(super) struct StairEdges {
-    all: Vec<Told>,
-    near_m: f64,
-}
+pub(super) struct StairEdges(Vec<KnownEdge>);
 
-/// What one stair tells.
+/// A straight piece of an edge, m.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Told {
-    outline: StairOutline,
-    /// Its height, m.
-    pub(super) height_m: f32,
-    /// Whether each side is its own end, as the outline counts them; else only a view ended there.
-    ends: [bool; 4],
+pub(super) struct KnownEdge {
+    from_m: [f64; 2],
+    to_m: [f64; 2],
 }
 
-impl Told {
-    /// Whether a place lies within its edges.
-    pub(super) fn covers(&self, at_m: [f64; 2]) -> bool {
-        self.outline.outside_m(at_m) <= 0.0
+impl KnownEdge {
+    /// Between two places, and so much longer at both ends, m.
+    fn new(from: &Point<Map>, to: &Point<Map>, longer_m: f64) -> Option<Self> {
+        let [from_m, to_m] = [from, to].map(|end| [end.inner.x, end.inner.y]);
+        let length_m = geometry::distance_m(from_m, to_m);
+        (length_m > 0.0).then(|| {
+            let share = longer_m / length_m;
+            let beyond = |from: f64, to: f64| to + share * (to - from);
+            Self {
+                from_m: [beyond(to_m[0], from_m[0]), beyond(to_m[1], from_m[1])],
+                to_m: [beyond(from_m[0], to_m[0]), beyond(from_m[1], to_m[1])],
+            }
+        })
     }
 
-    /// Whether a place lies beyond an end that is its own.
-    pub(super) fn ends_before(&self, at_m: [f64; 2]) -> bool {
-        !self.covers(at_m) && self.ends[self.outline.nearest_side(at_m)]
+    /// Whether it lies between two places.
+    pub(super) fn separates(&self, a_m: [f64; 2], b_m: [f64; 2]) -> bool {
+        let side = |from: [f64; 2], to: [f64; 2], at: [f64; 2]| {
+            (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0]) > 0.0
+        };
+        let Self { from_m, to_m } = *self;
+        side(from_m, to_m, a_m) != side(from_m, to_m, b_m)
+            && side(a_m, b_m, from_m) != side(a_m, b_m, to_m)
+    }
+
+    /// How far it is from a place, m.
+    fn away_m(&self, [x_m, y_m]: [f64; 2]) -> f64 {
+        let [along_x, along_y] = [self.to_m[0] - self.from_m[0], self.to_m[1] - self.from_m[1]];
+        let squared = along_x * along_x + along_y * along_y;
+        let (off_x, off_y) = (x_m - self.from_m[0], y_m - self.from_m[1]);
+        let share = ((off_x * along_x + off_y * along_y) / squared).clamp(0.0, 1.0);
+        geometry::hypot(off_x - share * along_x, off_y - share * along_y)
     }
 }
 
 impl StairEdges {
-    /// Takes in the stairs, of a map with cells of this size, m. Of two of one height, the same tread from two sides, both count.
+    /// Takes in the edges that were fitted, and the sides that were seen to be ends, of a map with cells of this size, m.
     pub(super) fn read(&mut self, stairs: &Staircase, cell_m: f64) {
-        // A cell may hold part of what begins a diagonal of it away.
-        self.near_m = std::f64::consts::SQRT_2 * cell_m;
-        self.all.clear();
-        self.all.extend(stairs.stairs.iter().map(|stair| Told {
-            outline: StairOutline::of(stair),
-            height_m: stair.height_m() as f32,
-            ends: [
-                stair.seen_ends.right > 0,
-                stair.back_fit.is_some() || stair.seen_ends.back > 0,
-                stair.seen_ends.left > 0,
-                stair.front_fit.is_some() || stair.seen_ends.front > 0,
-            ],
-        }));
+        self.0.clear();
+        for stair in &stairs.stairs {
+            self.0.extend(known(stair, cell_m).into_iter().flatten());
+        }
     }
 
-    /// The stairs that a cell around this place may hold an edge of, or lies on.
-    pub(super) fn near(&self, middle_m: [f64; 2]) -> Vec<Told> {
-        let near = |one: &&Told| one.outline.outside_m(middle_m) <= self.near_m;
-        self.all.iter().filter(near).copied().collect()
+    /// The edges that are no farther from a place than this, m.
+    pub(super) fn near(&self, place_m: [f64; 2], within_m: f64) -> Vec<KnownEdge> {
+        let near = |edge: &&KnownEdge| edge.away_m(place_m) <= within_m;
+        self.0.iter().filter(near).copied().collect()
     }
+}
+
+/// The known edges of a stair, each a cell longer: an edge's ends are the least sure of it.
+fn known(stair: &Stair<Map>, cell_m: f64) -> [Option<KnownEdge>; 4] {
+    let Stair { front, back, .. } = stair;
+    let ends = &stair.seen_ends;
+    let edge = |known: bool, from: &Point<Map>, to: &Point<Map>| {
+        known.then(|| KnownEdge::new(from, to, cell_m)).flatten()
+    };
+    let front_known = stair.front_fit.is_some() || ends.front > 0;
+    let back_known = stair.back_fit.is_some() || ends.back > 0;
+    [
+        edge(front_known, &front.left, &front.right),
+        edge(back_known, &back.left, &back.right),
+        edge(ends.left > 0, &front.left, &back.left),
+        edge(ends.right > 0, &front.right, &back.right),
+    ]
 }
