@@ -13,9 +13,6 @@ use stairs::Staircase;
 pub use config::GroundMapConfig;
 use stair_edges::{KnownEdge, StairEdges};
 
-/// An edge matters to cells whose middle is no more than so many cells away: a cell that it runs through, and those beside that.
-const NEAR_CELLS: f64 = 2.0;
-
 /// What a sole stands on now.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoleOnGround {
@@ -161,9 +158,13 @@ impl GroundMap {
     fn fill(&mut self, cell: Cell, middle_m: [f64; 2], fine: i32) {
         let plain = self.plain.get(cell).copied().unwrap_or(Plain::Unseen);
         let cell_m = self.map.lattice.cell_m * f64::from(fine);
-        let edges = match plain {
-            Plain::Border(_) => self.edges.near(middle_m, NEAR_CELLS * cell_m),
-            _ => Vec::new(),
+        let near_m = self.config.edge_cells * cell_m;
+        let (edges, levels_m) = match plain {
+            Plain::Border(_) => (
+                self.edges.near(middle_m, near_m),
+                self.edges.levels_near(middle_m, near_m),
+            ),
+            _ => (Vec::new(), Vec::new()),
         };
         let sigma_m = self.config.sigma as f32;
         for row in 0..fine {
@@ -174,6 +175,7 @@ impl GroundMap {
                 } else {
                     let at_m = self.map.lattice.center_of(at);
                     self.cut_height_m((cell, middle_m, cell_m), &edges, at_m)
+                        .map(|height_m| self.as_stair_m(height_m, &levels_m))
                 };
                 if let Some(height_m) = height_m {
                     self.map.set(at, height_m, sigma_m);
@@ -221,6 +223,15 @@ impl GroundMap {
             .filter(|&(_, other_m, _)| !edges.iter().any(|edge| edge.separates(at_m, other_m)));
         let nearest = joined.min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.total_cmp(&b.2)));
         nearest.map(|(_, _, height_m)| height_m)
+    }
+
+    /// The height of the stair that is as high as the map has it, m: cells that hold two levels have a height between them.
+    fn as_stair_m(&self, height_m: f32, levels_m: &[f32]) -> f32 {
+        let off_m = |level_m: &f32| (level_m - height_m).abs();
+        let nearest = (levels_m.iter().copied()).min_by(|a, b| off_m(a).total_cmp(&off_m(b)));
+        nearest
+            .filter(|level_m| off_m(level_m) <= self.config.blended as f32)
+            .unwrap_or(height_m)
     }
 
     /// Ground in and around a cell: how many columns and rows away, and how high, m.

@@ -13,5 +13,9 @@ settings! {
         sigma: f64 = 0.003, "m", within(0.0, 0.1);
         /// Heights that differ by no more are one level, from cell to cell of the map.
         level: f64 = 0.01, "m", above_to(0.0, 0.1);
+        /// An edge matters to cells of the map whose middle is no more than so many cells away: one that it runs through, and those beside it.
+        edge_cells: f64 = 2.0, "1", within(0.0, 10.0);
+        /// Beside an edge the map's heights may be off by so much: what is no further from a stair's height is as high as that.
+        blended: f64 = 0.012, "m", within(0.0, 0.1);
     }
 }

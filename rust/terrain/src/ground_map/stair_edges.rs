@@ -3,9 +3,14 @@
 use geometry::{Map, Point};
 use stairs::{Stair, Staircase};
 
-/// The known edges of all stairs.
+use crate::StairOutline;
+
+/// The known edges of all stairs, and how high those are.
 #[derive(Debug, Clone, Default)]
-pub(super) struct StairEdges(Vec<KnownEdge>);
+pub(super) struct StairEdges {
+    edges: Vec<KnownEdge>,
+    levels: Vec<(StairOutline, f32)>,
+}
 
 /// A straight piece of an edge, m.
 #[derive(Debug, Clone, Copy)]
@@ -52,16 +57,27 @@ impl KnownEdge {
 impl StairEdges {
     /// Takes in the edges that were fitted, and the sides that were seen to be ends, of a map with cells of this size, m.
     pub(super) fn read(&mut self, stairs: &Staircase, cell_m: f64) {
-        self.0.clear();
+        self.edges.clear();
+        self.levels.clear();
         for stair in &stairs.stairs {
-            self.0.extend(known(stair, cell_m).into_iter().flatten());
+            let known = known(stair, cell_m);
+            self.edges.extend(known.into_iter().flatten());
+            self.levels
+                .push((StairOutline::of(stair), stair.height_m() as f32));
         }
+    }
+
+    /// Heights of the stairs that are no farther from a place than this, m.
+    pub(super) fn levels_near(&self, place_m: [f64; 2], within_m: f64) -> Vec<f32> {
+        let near = |(outline, _): &&(StairOutline, f32)| outline.outside_m(place_m) <= within_m;
+        let near = self.levels.iter().filter(near);
+        near.map(|&(_, height_m)| height_m).collect()
     }
 
     /// The edges that are no farther from a place than this, m.
     pub(super) fn near(&self, place_m: [f64; 2], within_m: f64) -> Vec<KnownEdge> {
         let near = |edge: &&KnownEdge| edge.away_m(place_m) <= within_m;
-        self.0.iter().filter(near).copied().collect()
+        self.edges.iter().filter(near).copied().collect()
     }
 }
 
