@@ -131,7 +131,7 @@ SCENARIOS: Final[dict[str, Make]] = NO_FILE | {
     "a yard of clutter": element('kind = "yard"\nclutter = 60\narea = [[-0.5,-0.5],[2.5,0.5]]'),
     "a yard inside out": element('kind = "yard"\narea = [[1.0, 1.0], [-1.0, -1.0]]'),
     "flights of no shape": element('kind = "flights"\nshapes = []'),
-    "flights without a place": element('kind = "flights"\ntread = [1.0, 1.0]'),
+    "flights inside out": element('kind = "flights"\ntread = [0.2, 0.1]'),
     "a million slabs": element('kind = "slabs"\nedge = 0.001'),
     "a door of no width": element('kind = "door"\nwidth = 0.0'),
     "a door more than open": element('kind = "door"\nopen = 1.5'),
