@@ -50,7 +50,7 @@ impl Footsteps {
     /// Plans steps, and takes them, looks again, walks on or gives up.
     fn plan_steps(&mut self, tick: &Tick<'_>) {
         let feet = Self::soles(tick);
-        self.read_ground(tick, &feet);
+        self.read_ground(tick, &feet, Self::sole_heights_m(tick));
         match self.plan_from(tick, feet, None) {
             Ok(plan) if !plan.steps.is_empty() && self.gets_on(&plan) => self.take(tick, &plan),
             Ok(FootstepPlan {
@@ -70,28 +70,10 @@ impl Footsteps {
         let feet = Self::soles(tick);
         let heights_m = [0, 1].map(|foot: usize| {
             self.height_under_m(&feet[foot])
-                .unwrap_or(tick.ground_m + tick.situation.soles[foot].height_m)
+                .unwrap_or(Self::sole_heights_m(tick)[foot])
         });
         let ground_m = heights_m[0].min(heights_m[1]);
         let holds = plan.steps.iter().take(self.config.run).map(told);
-        if std::env::var_os("FSDBG").is_some() {
-            eprintln!(
-                "DBG {:.2} TAKE pose {:.3?} ground {ground_m:.4} z {:.4} soles {feet:.3?} exit {:?} cost {:.1} n {} expanded {}",
-                tick.elapsed_s,
-                tick.pose,
-                tick.ground_m,
-                plan.exit_m,
-                plan.cost_s,
-                plan.steps.len(),
-                plan.expanded
-            );
-            for h in holds.clone() {
-                eprintln!(
-                    "DBG   {:?} {:.3} {:.3} {:.2} h {:.4} b {:.3?}",
-                    h.side, h.pose.x_m, h.pose.y_m, h.pose.yaw_rad, h.height_m, h.bearing_m
-                );
-            }
-        }
         self.stepper.start(holds.collect(), &tick.pose, ground_m);
         self.planned_at = 0;
         self.enter(State::Step);
@@ -117,12 +99,6 @@ impl Footsteps {
     ) {
         self.looks += 1;
         let reason = tick.no_way_reason().unwrap_or_else(reason);
-        if std::env::var_os("FSDBG").is_some() {
-            eprintln!(
-                "DBG {:.2} VAIN {} {at_m:?} {reason}",
-                tick.elapsed_s, self.looks
-            );
-        }
         let unseen_m = at_m.filter(|_| self.failed.unseen() < self.config.longer as usize);
         if self.looks > self.config.tries {
             self.give_up(tick, reason);

@@ -105,19 +105,31 @@ impl Footsteps {
             .map(|sole| tick.pose.compose(&sole.pose))
     }
 
-    /// Reads the ground around feet that stand here.
-    pub(super) fn read_ground(&mut self, tick: &Tick<'_>, feet: &[PlanarPose; 2]) {
+    /// How high the soles are in the map, m.
+    pub(super) fn sole_heights_m(tick: &Tick<'_>) -> [f64; 2] {
+        tick.situation
+            .soles
+            .map(|sole| tick.ground_m + sole.height_m)
+    }
+
+    /// Reads the ground around feet that stand here, so high, m.
+    pub(super) fn read_ground(
+        &mut self,
+        tick: &Tick<'_>,
+        feet: &[PlanarPose; 2],
+        heights_m: [f64; 2],
+    ) {
         let limits = *self.layer.limits();
         let half_m = [0.5 * limits.sole.length_m, 0.5 * limits.sole.width_m];
         let (view, stairs) = (tick.situation.view, tick.situation.stairs);
         let around_m = [tick.pose.x_m, tick.pose.y_m];
         let _ = self.ground.read(view, stairs, around_m);
         self.failed.take_from(self.ground.map_mut(), &limits);
-        for (pose, sole) in feet.iter().zip(&tick.situation.soles) {
+        for (pose, height_m) in feet.iter().zip(heights_m) {
             self.ground.stand_on(&SoleOnGround {
                 pose: *pose,
                 half_m,
-                height_m: (tick.ground_m + sole.height_m) as f32,
+                height_m: height_m as f32,
             });
         }
     }

@@ -1,5 +1,6 @@
 //! The state `step`: the feet move, and what they do next is planned while they do.
 
+use geometry::PlanarPose;
 use planning::footsteps::{FootstepPlan, StepManner};
 
 use super::Footsteps;
@@ -24,12 +25,7 @@ impl Footsteps {
         }
         match self.stepper.advance(tick.situation, tick.passed_s) {
             Stepped::Running => {}
-            Stepped::Missed(misstep, landed) => {
-                if std::env::var_os("FSDBG").is_some() {
-                    eprintln!("DBG {:.2} MISSED {misstep:?} {landed}", tick.elapsed_s);
-                }
-                self.after_misstep(tick, misstep, landed)
-            }
+            Stepped::Missed(misstep, landed) => self.after_misstep(tick, misstep, landed),
             Stepped::Idle | Stepped::Done | Stepped::Stuck => self.after_list(tick),
         }
         self.stepper.motion()
@@ -40,8 +36,10 @@ impl Footsteps {
         let Some(&under_way) = self.stepper.holds.get(landed) else {
             return;
         };
-        let feet = after(&Self::soles(tick), under_way.side, under_way.pose);
-        self.read_ground(tick, &feet);
+        let (feet, told_from_map) = self.feet_after(tick, landed, &under_way);
+        let mut heights_m = Self::sole_heights_m(tick);
+        heights_m[under_way.side.index()] = under_way.height_m;
+        self.read_ground(tick, &feet, heights_m);
         let mut holds: Vec<Footstep> = self.stepper.holds[..=landed].to_vec();
         match self.plan_from(tick, feet, Some(under_way.side.other())) {
             Ok(plan) if self.may_walk_on(tick) && self.only_walks(&plan) => {
@@ -49,24 +47,35 @@ impl Footsteps {
             }
             Ok(plan) => {
                 let _ = self.gets_on(&plan);
-                holds.extend(plan.steps.iter().take(self.config.run).map(told));
+                let next = plan.steps.iter().take(self.config.run).map(told);
+                holds.extend(next.map(|hold| Footstep {
+                    pose: told_from_map.compose(&hold.pose),
+                    ..hold
+                }));
             }
             Err(_) => {}
         }
-        if std::env::var_os("FSDBG").is_some() {
-            let soles = Self::soles(tick);
-            eprintln!(
-                "DBG {:.2} landed {landed} soles {soles:.3?} err {:.4}",
-                tick.elapsed_s, tick.situation.stepping.height_error_m
-            );
-            for h in &holds {
-                eprintln!(
-                    "DBG   {:?} {:.3} {:.3} {:.2} h {:.4} b {:.3?}",
-                    h.side, h.pose.x_m, h.pose.y_m, h.pose.yaw_rad, h.height_m, h.bearing_m
-                );
-            }
-        }
         self.stepper.replace(holds);
+    }
+
+    /// Where the feet will be in the map, and how to tell the walker of a place there: by what it was told of the foot that stands, wherever that
+    /// came to stand.
+    fn feet_after(
+        &self,
+        tick: &Tick<'_>,
+        landed: usize,
+        under_way: &Footstep,
+    ) -> ([PlanarPose; 2], PlanarPose) {
+        let soles = Self::soles(tick);
+        let standing = under_way.side.other();
+        let mut before = self.stepper.holds[..landed].iter().rev();
+        let told = before.find(|hold| hold.side == standing);
+        let stands = soles[standing.index()];
+        let told_from_map = told.map_or_else(PlanarPose::default, |told| {
+            told.pose.compose(&stands.inverse())
+        });
+        let lands = told_from_map.inverse().compose(&under_way.pose);
+        (after(&soles, under_way.side, lands), told_from_map)
     }
 
     /// The step that puts the other foot beside one that lands, where there is ground at its height.
