@@ -4,11 +4,13 @@
 //! What a step costs is the time that it takes. The search is led by a field over coarse cells that is rooted at the goal.
 
 mod config;
+mod field_steps;
 mod goal_field;
 mod layer;
 mod limits;
 mod plan;
 mod space;
+mod spots;
 mod step_table;
 #[cfg(test)]
 mod tests;

@@ -79,7 +79,7 @@ impl GroundMap {
         &self.map
     }
 
-    /// The same, for what else is known of it: until it is read again.
+    /// The map as it was read last, for what else is known of it until it is read again.
     pub const fn map_mut(&mut self) -> &mut HeightMap {
         &mut self.map
     }
@@ -202,7 +202,7 @@ impl GroundMap {
         }
     }
 
-    /// The height at a place beside known edges, m: that of the nearest cell of the map that no edge separates from it.
+    /// The height at a place beside known edges, m: that of the nearest cell of the map of those that the fewest edges separate from it.
     fn cut_height_m(
         &self,
         (cell, middle_m, cell_m): (Cell, [f64; 2], f64),
@@ -217,11 +217,15 @@ impl GroundMap {
         };
         let beside = self.around(cell, 2).map(|(by, height_m)| {
             let other_m = middle_of(by);
-            (geometry::distance_m(other_m, at_m), other_m, height_m)
+            let separated = edges.iter().filter(|edge| edge.separates(at_m, other_m));
+            let away_m = geometry::distance_m(other_m, at_m);
+            (separated.count(), away_m, height_m)
         });
-        let joined = beside
-            .filter(|&(_, other_m, _)| !edges.iter().any(|edge| edge.separates(at_m, other_m)));
-        let nearest = joined.min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.total_cmp(&b.2)));
+        let nearest = beside.min_by(|a, b| {
+            a.0.cmp(&b.0)
+                .then(a.1.total_cmp(&b.1))
+                .then(a.2.total_cmp(&b.2))
+        });
         nearest.map(|(_, _, height_m)| height_m)
     }
 

@@ -10,7 +10,8 @@ use super::config::FootstepsConfig;
 use super::goal_field::GoalField;
 use super::limits::StepLimits;
 use super::plan::{FootstepPlan, NoFootsteps, PlannedFootstep};
-use super::space::{FootstepSpace, START, Spots, StandingFoot};
+use super::space::{FootstepSpace, START};
+use super::spots::{Spots, StandingFoot};
 use super::step_table::StepTable;
 use super::unseen::Unseen;
 use crate::search::ara_star::{AraStar, SearchProgress};
@@ -175,11 +176,7 @@ impl FootstepLayer {
         let mut best: Option<FootstepPlan> = None;
         let found = |space: &mut FootstepSpace<'_>, progress: &SearchProgress| {
             if let Some(steps) = space.steps_to(progress.last) {
-                let exit_m = if space.is_goal_reached(progress.last) {
-                    None
-                } else {
-                    space.exit(progress.last)
-                };
+                let exit_m = space.exit(progress.last);
                 take_better(&mut best, (steps, exit_m), progress);
             }
         };

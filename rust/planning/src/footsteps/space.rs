@@ -3,39 +3,19 @@
 use geometry::{Cell, Goal, PlanarPose};
 use mapping::HeightMap;
 use robot::Side;
-use rustc_hash::FxHashMap;
-use terrain::footholds::{Foothold, Footholds, HighBlocks};
+use terrain::footholds::{Footholds, HighBlocks};
 
 use super::config::FootstepsConfig;
 use super::goal_field::GoalField;
 use super::limits::{StepLimits, StepReach};
 use super::plan::{PlannedFootstep, StepManner};
+use super::spots::{FootSpot, Spots, StandingFoot};
 use super::step_table::{LatticeStep, StepTable};
 use super::unseen::Unseen;
 use crate::search::ara_star::Space;
 
 /// The node at which the robot stands on both feet.
 pub(super) const START: u32 = 0;
-
-/// A foot at a place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct StandingFoot {
-    pub(super) side: Side,
-    pub(super) pose: PlanarPose,
-    /// The cell of its middle: in its centre, but at the start.
-    pub(super) cell: Cell,
-    pub(super) heading: usize,
-    pub(super) foothold: Foothold,
-}
-
-/// A place on the lattice: cell of the map, and heading.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct FootSpot {
-    cell: Cell,
-    heading: usize,
-    /// `None` where no sole stands.
-    foothold: Option<Foothold>,
-}
 
 /// What is searched, and on which map.
 pub(super) struct FootstepSpace<'a> {
@@ -55,24 +35,6 @@ pub(super) struct FootstepSpace<'a> {
     pub(super) spots: &'a mut Spots,
     /// Places of a foot that were expanded.
     pub(super) expanded: usize,
-}
-
-/// Places that were come upon. Used again.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Spots {
-    by_place: FxHashMap<(Cell, usize), u32>,
-    all: Vec<FootSpot>,
-    /// From which node each one was reached as it was expanded last: the steps from it were looked at with the other foot there.
-    came_from: Vec<u32>,
-}
-
-impl Spots {
-    /// Forgets all.
-    pub(super) fn clear(&mut self) {
-        self.by_place.clear();
-        self.all.clear();
-        self.came_from.clear();
-    }
 }
 
 impl FootstepSpace<'_> {
@@ -253,14 +215,11 @@ impl FootstepSpace<'_> {
 }
 
 impl FootstepSpace<'_> {
-    /// Whether a plan that ends at this node ends at the goal.
-    pub(super) fn is_goal_reached(&self, node: u32) -> bool {
-        self.is_at_goal(&self.foot_at(node).unwrap_or(self.start[0]))
-    }
-
-    /// Where a plan that ends at this node leaves what is known, m.
+    /// Where a plan that ends at this node leaves what is known, m; `None` where it ends at the goal.
     pub(super) fn exit(&self, node: u32) -> Option<[f64; 2]> {
-        self.exit_from(&self.foot_at(node).unwrap_or(self.start[0]))
+        let foot = self.foot_at(node).unwrap_or(self.start[0]);
+        let leaves = !self.is_at_goal(&foot);
+        leaves.then(|| self.exit_from(&foot)).flatten()
     }
 
     fn exit_from(&self, foot: &StandingFoot) -> Option<[f64; 2]> {

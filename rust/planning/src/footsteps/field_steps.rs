@@ -1,0 +1,69 @@
+//! Steps from cell to cell of the goal's field, and what they cost.
+
+use super::config::FootstepsConfig;
+use super::limits::StepLimits;
+
+/// What a step from cell to cell costs.
+pub(super) struct Prices {
+    /// Of a step straight on and of a diagonal one, s.
+    way_s: [f32; 2],
+    /// Up to this, m, ground is walked on.
+    walk_m: f32,
+    /// Beyond this, m, there is no step.
+    rise_m: f32,
+    /// What a metre of climbing costs beside the way, s.
+    climb_s: f32,
+    /// So many times as dear is a way over what carries no sole.
+    poor: f32,
+    /// So many times as dear is a way over what was not seen.
+    unseen: f32,
+}
+
+impl Prices {
+    pub(super) fn of(config: &FootstepsConfig, limits: &StepLimits, cell_m: f64) -> Self {
+        let straight_s = cell_m / limits.speed_mps();
+        let rise_m = limits.careful_rise_m;
+        let more_s = (limits.careful_s(0.0, rise_m) - limits.walked_s).max(0.0);
+        Self {
+            way_s: [straight_s, std::f64::consts::SQRT_2 * straight_s].map(|cost_s| cost_s as f32),
+            walk_m: config.walk_height as f32,
+            rise_m: rise_m as f32,
+            climb_s: (more_s / rise_m) as f32,
+            poor: config.poor_cost as f32,
+            unseen: config.unseen_cost as f32,
+        }
+    }
+}
+
+/// The eight steps from a cell, with what each costs; those that lead nowhere left out.
+pub(super) fn steps<'a>(
+    (from, cols, rows): (u32, i32, i32),
+    (levels_m, carries, exits): (&'a [f32], &'a [bool], &'a [bool]),
+    prices: &'a Prices,
+) -> impl Iterator<Item = (u32, f32)> + 'a {
+    let (col, row) = (from as i32 % cols, from as i32 / cols);
+    let around = (-1..=1).flat_map(|up| (-1..=1).map(move |right| [right, up]));
+    around.filter_map(move |[right, up]: [i32; 2]| {
+        let to = [col + right, row + up];
+        let inside = (0..cols).contains(&to[0]) && (0..rows).contains(&to[1]);
+        if !inside || right == 0 && up == 0 {
+            return None;
+        }
+        let to = (to[1] * cols + to[0]) as usize;
+        let rise_m = (levels_m[to] - levels_m[from as usize]).abs();
+        let climb_s = if rise_m > prices.walk_m {
+            rise_m * prices.climb_s
+        } else {
+            0.0
+        };
+        let diagonal = usize::from(right != 0 && up != 0);
+        let times = match (exits[to], carries[to]) {
+            (true, _) => prices.unseen,
+            (false, true) => 1.0,
+            (false, false) => prices.poor,
+        };
+        let way_s = prices.way_s[diagonal] * times;
+        // What has no level has no rise.
+        (rise_m <= prices.rise_m).then_some((to as u32, way_s + climb_s))
+    })
+}
