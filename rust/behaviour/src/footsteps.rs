@@ -12,7 +12,7 @@ mod step;
 mod walk;
 
 use geometry::PlanarPose;
-use planning::footsteps::{FootstepLayer, FootstepsConfig};
+use planning::footsteps::{FootstepLayer, FootstepsConfig, StepLimits};
 use settings::{MakeError, Part, Table, TableDescription, read};
 use stairs::ClimbingConfig;
 use terrain::ground_map::GroundMap;
@@ -79,14 +79,24 @@ impl Footsteps {
         let config: SteppingConfig = read(needs.tables, "stepping")?;
         config.check()?;
         let eyes = &needs.body.description().head;
+        let stride_m = climbing
+            .ascend
+            .longest_stride
+            .min(climbing.descend.longest_stride);
+        // Foot over foot, a foot passes the level of the other one.
+        let limits = StepLimits {
+            careful_forward_m: needs.steps.careful_forward_m.min(stride_m),
+            careful_lift_m: 2.0 * head.run_rise,
+            ..needs.steps
+        };
         let ground = GroundMap::new(layer.ground.clone(), needs.steps.careful_rise_m);
-        let limits = (walking.config()).limits("no step could be taken", ", while it stepped");
+        let waits = (walking.config()).limits("no step could be taken", ", while it stepped");
         Ok(Self {
             told_m: climbing.levels.told,
             head: ClimbingHead::new(&head, walking.config(), eyes),
-            machine: Machine::new(State::Walk, limits),
+            machine: Machine::new(State::Walk, waits),
             stepper: Stepper::new(head.tuning.stepper.clone()),
-            layer: FootstepLayer::new(layer, needs.steps)?,
+            layer: FootstepLayer::new(layer, limits)?,
             ground,
             config,
             walking,

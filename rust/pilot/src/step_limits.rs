@@ -31,6 +31,7 @@ pub fn step_limits(body: &Body) -> Result<StepLimits, WalkError> {
         careful_forward_m: gait.climb_forward,
         careful_sideways_m: gait.climb_sideways,
         careful_rise_m: gait.climb_rise,
+        careful_lift_m: 2.0 * gait.climb_rise,
         clearance_m: [gait.step_height, gait.climb_clearance],
         walked_s: gait.step_time,
         careful_air_s: gait.climb_swing_time,

@@ -159,13 +159,18 @@ impl GroundMap {
         let plain = self.plain.get(cell).copied().unwrap_or(Plain::Unseen);
         let cell_m = self.map.lattice.cell_m * f64::from(fine);
         let near_m = self.config.edge_cells * cell_m;
-        let (edges, levels_m) = match plain {
-            Plain::Border(_) => (
-                self.edges.near(middle_m, near_m),
-                self.edges.levels_near(middle_m, near_m),
-            ),
-            _ => (Vec::new(), Vec::new()),
-        };
+        let (mut edges, mut levels_m) = (Vec::new(), Vec::new());
+        if matches!(plain, Plain::Border(_) | Plain::Obstacle(_)) {
+            edges = self.edges.near(middle_m, near_m);
+            levels_m = self.edges.levels_near(middle_m, near_m);
+        }
+        if let Plain::Obstacle(top_m) = plain {
+            // A riser may be taken for something that stands before it, as high as the stair behind it.
+            let highest_m = levels_m.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+            if top_m > highest_m + self.config.blended as f32 {
+                edges.clear();
+            }
+        }
         let sigma_m = self.config.sigma as f32;
         for row in 0..fine {
             for col in 0..fine {
@@ -252,7 +257,7 @@ impl GroundMap {
         let beside = self
             .around(cell, 2)
             .map(|(_, height_m)| height_m)
-            .reduce(f32::max);
+            .reduce(f32::min);
         beside.map_or(top_m, |ground_m| top_m.max(ground_m + 2.0 * self.rise_m))
     }
 

@@ -27,6 +27,8 @@ pub struct StepLimits {
     pub careful_sideways_m: f64,
     /// Highest careful step up or down, m.
     pub careful_rise_m: f64,
+    /// Most that the foot of a careful step is raised or lowered from where it stood, m.
+    pub careful_lift_m: f64,
     /// How much higher than the higher end of its step a foot is lifted, m: of a walked one and of a careful one.
     pub clearance_m: [f64; 2],
     /// Time of a walked step, s.
@@ -130,7 +132,8 @@ impl StepLimits {
     const fn walked_reach_m(&self) -> [f64; 2] {
         [
             self.max_forward_m.max(self.max_backward_m),
-            self.max_sideways_m,
+            // Out of a wider stance the weight does not get over one foot in time for a careful step.
+            self.max_sideways_m.min(self.careful_sideways_m),
         ]
     }
 

@@ -90,10 +90,11 @@ impl FootstepSpace<'_> {
     ) -> Option<PlannedFootstep> {
         let there = self.foot_at(to)?;
         let height_m = |foot: &StandingFoot| f64::from(foot.foothold.height_m);
-        let rise_m = height_m(&there) - height_m(standing);
-        let lift_m = height_m(&there) - height_m(moving);
+        let [rise_m, lift_m] = [standing, moving].map(|foot| height_m(&there) - height_m(foot));
         let Self { limits, config, .. } = self;
-        if rise_m.abs() > limits.careful_rise_m - config.height_margin {
+        if rise_m.abs() > limits.careful_rise_m - config.height_margin
+            || lift_m.abs() > limits.careful_lift_m
+        {
             return None;
         }
         let level = rise_m.abs().max(lift_m.abs()) <= config.walk_height;

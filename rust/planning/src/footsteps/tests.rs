@@ -24,6 +24,7 @@ const LIMITS: StepLimits = StepLimits {
     careful_forward_m: 0.135,
     careful_sideways_m: 0.05,
     careful_rise_m: 0.055,
+    careful_lift_m: 0.11,
     clearance_m: [0.02, 0.02],
     walked_s: 0.5,
     careful_air_s: 0.8,
