@@ -5,6 +5,7 @@
 
 mod config;
 mod stair_edges;
+mod under_soles;
 
 use geometry::{Cell, CellArea, Grid, Lattice, PlanarPose};
 use mapping::{FloorView, HeightMap, Surface};
@@ -260,42 +261,6 @@ impl GroundMap {
             .reduce(f32::min);
         beside.map_or(top_m, |ground_m| top_m.max(ground_m + 2.0 * self.rise_m))
     }
-
-    /// Under a sole that stands there is ground: as high as the map has it where that is about where the foot is, else as high as the foot.
-    pub fn stand_on(&mut self, sole: &SoleOnGround) {
-        let lattice = self.map.lattice;
-        let around_m = sole.half_m.map(|half_m| half_m + lattice.cell_m);
-        let reach_m = geometry::hypot(around_m[0], around_m[1]);
-        let PlanarPose { x_m, y_m, .. } = sole.pose;
-        let area = CellArea {
-            min: lattice.cell_at(x_m - reach_m, y_m - reach_m),
-            max: lattice.cell_at(x_m + reach_m, y_m + reach_m),
-        };
-        let from_map = sole.pose.inverse();
-        let within = |cell: Cell, half_m: [f64; 2]| {
-            let [x_m, y_m] = lattice.center_of(cell);
-            let (ahead_m, left_m) = from_map.apply(x_m, y_m);
-            ahead_m.abs() <= half_m[0] && left_m.abs() <= half_m[1]
-        };
-        let as_felt =
-            |height_m: &f32| f64::from((height_m - sole.height_m).abs()) <= self.config.blended;
-        let under = area.cells().filter(|&cell| within(cell, sole.half_m));
-        let seen = under.filter_map(|cell| self.map.height_m(cell));
-        let height_m = median(seen.filter(as_felt).collect()).unwrap_or(sole.height_m);
-        let sigma_m = self.config.sigma as f32;
-        for cell in area.cells() {
-            let beside = within(cell, around_m) && self.map.height_m(cell).is_none();
-            if within(cell, sole.half_m) || beside {
-                self.map.set(cell, height_m, sigma_m);
-            }
-        }
-    }
-}
-
-/// The middle one of some heights, m.
-fn median(mut heights_m: Vec<f32>) -> Option<f32> {
-    heights_m.sort_by(f32::total_cmp);
-    heights_m.get(heights_m.len() / 2).copied()
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ settings! {
         /// So many looks without a step between them are in vain, and so many times stepping is given up before the robot refuses.
         tries: u32 = 3, "1", within(1.0, 100.0);
         /// So often the way on may turn out longer than it had seemed and still count as getting on.
-        longer: u32 = 20, "1", within(0.0, 1000.0);
+        longer: u32 = 8, "1", within(0.0, 1000.0);
         /// Stepping that was given up no farther away than this is not tried again until the robot has walked.
         elsewhere: f64 = 0.15, "m", POSITIVE;
         /// While the robot walks to a height change, footsteps are planned every so many frames.

@@ -205,3 +205,57 @@ pub(super) fn after(feet: &[PlanarPose; 2], side: Side, to: PlanarPose) -> [Plan
     feet[side.index()] = to;
     feet
 }
+
+#[cfg(test)]
+mod tests {
+    use geometry::{Grid, Lattice};
+
+    use super::*;
+
+    #[test]
+    fn a_way_that_gets_shorter_gets_on_and_one_that_gets_longer_does_so_often_only() {
+        let mut to_go = CostToGo::default();
+        let gets_on = [20.0, 19.9, 18.0, 18.2, 25.0, 24.8, 31.0, 40.0]
+            .map(|whole_s| to_go.gets_on(whole_s, 0.5, 2));
+        assert_eq!(
+            gets_on,
+            [true, false, true, false, true, false, true, false]
+        );
+        assert!(to_go.gets_on(30.0, 0.5, 2));
+    }
+
+    #[test]
+    fn where_a_foot_failed_twice_it_is_not_put_again_and_what_stays_unseen_is_no_way() {
+        let lattice = Lattice {
+            origin_m: [0.0; 2],
+            cell_m: 0.01,
+        };
+        let mut limits = crate::climbing::simulation::STEPS;
+        limits.careful_rise_m = 0.05;
+        let hold = Footstep {
+            side: Side::Left,
+            pose: PlanarPose::new(0.5, 0.5, 0.3),
+            height_m: 0.03,
+            bearing_m: [-0.05, 0.05],
+            manner: planning::footsteps::StepManner::Careful,
+        };
+        let map = |failed: &Failed| {
+            let mut heights_m = Grid::filled(100, 100, 0.03);
+            *heights_m.get_mut(lattice.cell_at(0.2, 0.2)).unwrap() = f32::NAN;
+            let mut map = HeightMap::new(lattice, heights_m, 0.0);
+            failed.take_from(&mut map, &limits);
+            map
+        };
+        let at = |map: &HeightMap, place_m: f64| map.height_m(lattice.cell_at(place_m, place_m));
+        let mut failed = Failed::default();
+        failed.note(hold, Misstep::NoGround);
+        assert_eq!(at(&map(&failed), 0.5), Some(0.03));
+        failed.note(hold, Misstep::NoGround);
+        assert!(at(&map(&failed), 0.5).unwrap() < -0.05);
+        failed.note_unseen([0.2, 0.2]);
+        assert_eq!(at(&map(&failed), 0.2), Some(HeightMap::BOTTOMLESS_M));
+        assert_eq!(at(&map(&failed), 0.22), Some(0.03));
+        failed.forget();
+        assert_eq!(at(&map(&failed), 0.2), None);
+    }
+}

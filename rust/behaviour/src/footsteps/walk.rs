@@ -12,11 +12,18 @@ use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
 pub(super) struct Lead {
     /// A plan for `walking` up to there.
     plan: Plan,
-    /// How far it is, m.
+    /// How far it was, m.
     step_away_m: f64,
+    /// From where it was so far, m.
+    from_m: [f64; 2],
 }
 
 impl Lead {
+    /// How far the first height change is now, m.
+    fn step_away_m(&self, tick: &Tick<'_>) -> f64 {
+        self.step_away_m - geometry::distance_m(self.from_m, [tick.pose.x_m, tick.pose.y_m])
+    }
+
     /// Along the first steps of a plan, as far as they are walked.
     fn along(plan: &FootstepPlan, tick: &Tick<'_>) -> Option<Self> {
         let careful = (plan.steps.iter()).position(|step| step.manner == StepManner::Careful);
@@ -48,6 +55,7 @@ impl Lead {
                 replanned: false,
             },
             step_away_m,
+            from_m: [tick.pose.x_m, tick.pose.y_m],
         })
     }
 }
@@ -76,12 +84,17 @@ impl Footsteps {
         if looking && self.lead.is_some() && self.machine.lasted_s() > self.config.first_look {
             self.walking.end_look();
         }
-        let lead = self.lead.as_ref().filter(|_| !looking);
-        if lead.is_some_and(|lead| lead.step_away_m < self.config.stop_before) {
+        let climbs = has_climbs(tick);
+        let near = self.lead.as_ref().map_or(climbs, |lead| {
+            lead.step_away_m(tick) < self.config.stop_before
+        });
+        if steps_here && !looking && near {
             return Ok(self.stop_to_step(tick));
         }
-        let led = lead.map(|lead| &lead.plan);
-        let (led, plan) = (led.is_some(), led.or(situation.plan));
+        let led = self.lead.as_ref().map(|lead| &lead.plan);
+        // Nobody walks along a way that leads over a height change.
+        let level = situation.plan.filter(|_| !climbs);
+        let (led, plan) = (led.is_some(), led.or(level));
         let decision = self.walking.next(&Situation {
             plan,
             last_goal: situation.last_goal && !led,
@@ -138,6 +151,7 @@ impl Footsteps {
         Some(Lead {
             step_away_m: climb_away_m(tick)?,
             plan: self.cut_plan(tick)?,
+            from_m: [tick.pose.x_m, tick.pose.y_m],
         })
     }
 
@@ -182,6 +196,12 @@ impl Footsteps {
         let level = !tick.finds_no_way() && tick.situation.plan.is_some();
         level && climb_away_m(tick).is_none_or(|away_m| away_m > self.config.walk_on)
     }
+}
+
+/// Whether the planner's way leads over a height change.
+fn has_climbs(tick: &Tick<'_>) -> bool {
+    let path = tick.situation.plan.and_then(|plan| plan.way.as_ref().ok());
+    path.is_some_and(|path| !path.climbs.is_empty())
 }
 
 /// How far the first height change of the plan is away along the way, m.

@@ -219,8 +219,7 @@ impl FootstepSpace<'_> {
     /// Where a plan that ends at this node leaves what is known, m; `None` where it ends at the goal.
     pub(super) fn exit(&self, node: u32) -> Option<[f64; 2]> {
         let foot = self.foot_at(node).unwrap_or(self.start[0]);
-        let leaves = !self.is_at_goal(&foot);
-        leaves.then(|| self.exit_from(&foot)).flatten()
+        (!self.is_at_goal(&foot)).then(|| self.exit_from(&foot))?
     }
 
     fn exit_from(&self, foot: &StandingFoot) -> Option<[f64; 2]> {
