@@ -176,8 +176,7 @@ impl FootstepLayer {
         let mut best: Option<FootstepPlan> = None;
         let found = |space: &mut FootstepSpace<'_>, progress: &SearchProgress| {
             if let Some(steps) = space.steps_to(progress.last) {
-                let exit_m = space.exit(progress.last);
-                take_better(&mut best, (steps, exit_m), progress);
+                take_better(&mut best, (steps, space.exit(progress.last)), progress);
             }
         };
         let leads_on = field.remaining_s(middle.x_m, middle.y_m).is_finite();
@@ -187,11 +186,19 @@ impl FootstepLayer {
         let expanded = space.expanded;
         match best {
             Some(plan) => Ok(FootstepPlan { expanded, ..plan }),
-            None if !leads_on => Err(NoFootsteps::NoWay {
-                rise_m: limits.careful_rise_m,
-            }),
-            None if expanded >= config.most_expansions => Err(NoFootsteps::GivenUp(expanded)),
-            None => Err(NoFootsteps::NoSteps(expanded)),
+            None => Err(self.why_none(leads_on, expanded)),
+        }
+    }
+
+    const fn why_none(&self, leads_on: bool, expanded: usize) -> NoFootsteps {
+        if !leads_on {
+            NoFootsteps::NoWay {
+                rise_m: self.limits.careful_rise_m,
+            }
+        } else if expanded >= self.config.most_expansions {
+            NoFootsteps::GivenUp(expanded)
+        } else {
+            NoFootsteps::NoSteps(expanded)
         }
     }
 
