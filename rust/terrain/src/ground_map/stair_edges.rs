@@ -17,11 +17,13 @@ pub(super) struct StairEdges {
 pub(super) struct KnownEdge {
     from_m: [f64; 2],
     to_m: [f64; 2],
+    /// Whether it was fitted to the disparities; else it is the hull's.
+    fitted: bool,
 }
 
 impl KnownEdge {
     /// Between two places, and so much longer at both ends, m.
-    fn new(from: &Point<Map>, to: &Point<Map>, longer_m: f64) -> Option<Self> {
+    fn new([from, to]: [&Point<Map>; 2], longer_m: f64, fitted: bool) -> Option<Self> {
         let [from_m, to_m] = [from, to].map(|end| [end.inner.x, end.inner.y]);
         let length_m = geometry::distance_m(from_m, to_m);
         (length_m > 0.0).then(|| {
@@ -30,6 +32,7 @@ impl KnownEdge {
             Self {
                 from_m: [beyond(to_m[0], from_m[0]), beyond(to_m[1], from_m[1])],
                 to_m: [beyond(from_m[0], to_m[0]), beyond(from_m[1], to_m[1])],
+                fitted,
             }
         })
     }
@@ -39,7 +42,7 @@ impl KnownEdge {
         let side = |from: [f64; 2], to: [f64; 2], at: [f64; 2]| {
             (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0]) > 0.0
         };
-        let Self { from_m, to_m } = *self;
+        let Self { from_m, to_m, .. } = *self;
         side(from_m, to_m, a_m) != side(from_m, to_m, b_m)
             && side(a_m, b_m, from_m) != side(a_m, b_m, to_m)
     }
@@ -74,10 +77,14 @@ impl StairEdges {
         near.map(|&(_, height_m)| height_m).collect()
     }
 
-    /// The edges that are no farther from a place than this, m.
+    /// The edges that are no farther from a place than this, m: those that were fitted, if any were. A hull's is one of them again, a little off.
     pub(super) fn near(&self, place_m: [f64; 2], within_m: f64) -> Vec<KnownEdge> {
         let near = |edge: &&KnownEdge| edge.away_m(place_m) <= within_m;
-        self.edges.iter().filter(near).copied().collect()
+        let mut near: Vec<KnownEdge> = self.edges.iter().filter(near).copied().collect();
+        if near.iter().any(|edge| edge.fitted) {
+            near.retain(|edge| edge.fitted);
+        }
+        near
     }
 }
 
@@ -85,15 +92,14 @@ impl StairEdges {
 fn known(stair: &Stair<Map>, cell_m: f64) -> [Option<KnownEdge>; 4] {
     let Stair { front, back, .. } = stair;
     let ends = &stair.seen_ends;
-    let edge = |known: bool, from: &Point<Map>, to: &Point<Map>| {
-        known.then(|| KnownEdge::new(from, to, cell_m)).flatten()
+    let edge = |fitted: bool, seen: usize, places: [&Point<Map>; 2]| {
+        (fitted || seen > 0).then(|| KnownEdge::new(places, cell_m, fitted))?
     };
-    let front_known = stair.front_fit.is_some() || ends.front > 0;
-    let back_known = stair.back_fit.is_some() || ends.back > 0;
+    let [front_fitted, back_fitted] = [stair.front_fit, stair.back_fit].map(|fit| fit.is_some());
     [
-        edge(front_known, &front.left, &front.right),
-        edge(back_known, &back.left, &back.right),
-        edge(ends.left > 0, &front.left, &back.left),
-        edge(ends.right > 0, &front.right, &back.right),
+        edge(front_fitted, ends.front, [&front.left, &front.right]),
+        edge(back_fitted, ends.back, [&back.left, &back.right]),
+        edge(false, ends.left, [&front.left, &back.left]),
+        edge(false, ends.right, [&front.right, &back.right]),
     ]
 }
