@@ -47,6 +47,15 @@ impl KnownEdge {
             && side(a_m, b_m, from_m) != side(a_m, b_m, to_m)
     }
 
+    /// Whether all of it is no farther from another edge than this, m.
+    fn runs_along(&self, other: &Self, within_m: f64) -> bool {
+        let middle_m = [0, 1].map(|axis: usize| f64::midpoint(self.from_m[axis], self.to_m[axis]));
+        let places_m = [self.from_m, middle_m, self.to_m];
+        places_m
+            .iter()
+            .all(|&place_m| other.away_m(place_m) <= within_m)
+    }
+
     /// How far it is from a place, m.
     fn away_m(&self, [x_m, y_m]: [f64; 2]) -> f64 {
         let [along_x, along_y] = [self.to_m[0] - self.from_m[0], self.to_m[1] - self.from_m[1]];
@@ -77,13 +86,17 @@ impl StairEdges {
         near.map(|&(_, height_m)| height_m).collect()
     }
 
-    /// The edges that are no farther from a place than this, m: those that were fitted, if any were. A hull's is one of them again, a little off.
+    /// The edges that are no farther from a place than this, m. A hull's that runs along one that was fitted is that again, a little off.
     pub(super) fn near(&self, place_m: [f64; 2], within_m: f64) -> Vec<KnownEdge> {
         let near = |edge: &&KnownEdge| edge.away_m(place_m) <= within_m;
         let mut near: Vec<KnownEdge> = self.edges.iter().filter(near).copied().collect();
-        if near.iter().any(|edge| edge.fitted) {
-            near.retain(|edge| edge.fitted);
-        }
+        let fitted: Vec<KnownEdge> = near.iter().filter(|edge| edge.fitted).copied().collect();
+        let same = |edge: &KnownEdge| {
+            fitted
+                .iter()
+                .any(|fitted| edge.runs_along(fitted, 0.5 * within_m))
+        };
+        near.retain(|edge| edge.fitted || !same(edge));
         near
     }
 }
