@@ -110,9 +110,8 @@ impl StepLimits {
         let within = between(turn_rad, -self.max_turn_rad, self.max_turn_rad)
             && between(across_m, nearest_m, farthest_m)
             && between(step.x_m, -forward_m, forward_m);
-        let walked = between(step.x_m, -self.max_backward_m, self.max_forward_m)
-            && self.stretch(step.x_m, across_m, self.walked_reach_m()) < 1.0 + ROUNDING;
-        let careful = self.stretch(step.x_m, across_m, self.careful_reach_m()) < 1.0 + ROUNDING;
+        let walked = self.is_walked(step.x_m, across_m);
+        let careful = self.stretch(step.x_m, across_m) < 1.0 + ROUNDING;
         match (within, walked, careful) {
             (true, true, true) => Some(StepReach::Walking),
             (true, true, false) => Some(StepReach::WalkingOnly),
@@ -123,32 +122,31 @@ impl StepLimits {
 }
 
 impl StepLimits {
-    /// How far a careful step goes straight forward and, beyond standing side by side, straight aside, m.
-    const fn careful_reach_m(&self) -> [f64; 2] {
-        [self.careful_forward_m, self.careful_sideways_m]
+    /// Whether a step so far forward and so far across, m, is one of a walk. Out of a stance that is wider than a careful step's the weight would not
+    /// get over one foot in time for such a step.
+    fn is_walked(&self, x_m: f64, across_m: f64) -> bool {
+        let wider_m = self.max_sideways_m.min(self.careful_sideways_m);
+        x_m > -self.max_backward_m - ROUNDING
+            && x_m < self.max_forward_m + ROUNDING
+            && across_m < self.stance_width_m + wider_m + ROUNDING
     }
 
-    /// How far a walked step goes straight forward or back and, beyond standing side by side, straight aside, m.
-    const fn walked_reach_m(&self) -> [f64; 2] {
-        [
-            self.max_forward_m.max(self.max_backward_m),
-            // Out of a wider stance the weight does not get over one foot in time for a careful step.
-            self.max_sideways_m.min(self.careful_sideways_m),
-        ]
-    }
-
-    /// How far the legs are stretched by a step so far forward and so far across, m, as a share of what they can: both at once they do as far
-    /// as an ellipse goes.
-    fn stretch(&self, x_m: f64, across_m: f64, [ahead_m, aside_m]: [f64; 2]) -> f64 {
+    /// How far the legs are stretched by a careful step so far forward and so far across, m, as a share of what they can: both at once they do as
+    /// far as an ellipse goes.
+    fn stretch(&self, x_m: f64, across_m: f64) -> f64 {
         let wider_m = (across_m - self.stance_width_m).max(0.0);
-        geometry::hypot(x_m / ahead_m, wider_m / aside_m)
+        geometry::hypot(
+            x_m / self.careful_forward_m,
+            wider_m / self.careful_sideways_m,
+        )
     }
 
     /// The farthest place within reach towards one that may be beyond: forward and across, m.
     pub(super) fn pulled_in(&self, x_m: f64, across_m: f64) -> [f64; 2] {
-        let walked = self.stretch(x_m, across_m, self.walked_reach_m());
-        let careful = self.stretch(x_m, across_m, self.careful_reach_m());
-        let share = 1.0 / walked.min(careful).max(1.0);
+        if self.is_walked(x_m, across_m) {
+            return [x_m, across_m];
+        }
+        let share = 1.0 / self.stretch(x_m, across_m).max(1.0);
         let aside_m = (across_m - self.stance_width_m).max(0.0);
         [x_m * share, across_m - aside_m * (1.0 - share)]
     }

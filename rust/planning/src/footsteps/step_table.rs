@@ -175,7 +175,8 @@ fn wanted(config: &FootstepsConfig, limits: &StepLimits) -> Vec<PlanarPose> {
             for across in 0..config.across {
                 let share = across as f64 / (config.across.max(2) - 1) as f64;
                 let least_m = nearest_m.max(limits.stance_width_m);
-                let y_m = least_m + share * (farthest_m - least_m);
+                let wide_m = farthest_m.min(least_m + limits.careful_sideways_m);
+                let y_m = least_m + share * (wide_m - least_m);
                 let [x_m, y_m] = limits.pulled_in(x_m, y_m);
                 wanted.push(PlanarPose::new(x_m, y_m, yaw_rad));
             }
