@@ -21,6 +21,7 @@ mod landing;
 pub mod leg;
 mod leg_geometry;
 mod listed;
+mod listed_steps;
 mod met;
 mod pelvis;
 pub mod phase;
