@@ -94,7 +94,8 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
         ),
         (
             {"behaviour": "x"},
-            r"navigation\.behaviour must be one of stair_climbing, continuous, walking, footsteps, got x",
+            r"navigation\.behaviour must be one of stair_climbing, continuous, walking, "
+            "footsteps, got x",
         ),
     ],
 )
