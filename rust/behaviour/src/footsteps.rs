@@ -64,8 +64,6 @@ pub struct Footsteps {
     looks: u32,
     /// Times that stepping was given up, and where that was last.
     given_up: (u32, Option<PlanarPose>),
-    /// Why there were no steps when they were planned last.
-    reason: Option<String>,
     /// How many of the list's steps had landed when it was planned last.
     planned_at: usize,
 }
@@ -105,7 +103,6 @@ impl Footsteps {
             to_go: CostToGo::default(),
             looks: 0,
             given_up: (0, None),
-            reason: None,
             planned_at: 0,
         })
     }

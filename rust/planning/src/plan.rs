@@ -107,6 +107,22 @@ pub struct Path {
     pub cost_m: f64,
 }
 
+impl Path {
+    /// Its first points as a way of their own, that is walked: with the sidles that end among them, and no climbs.
+    #[must_use]
+    pub fn first(&self, points: usize) -> Self {
+        let ends = |sidle: &&Sidle| sidle.to_point < points;
+        Self {
+            points_m: self.points_m.iter().take(points).copied().collect(),
+            unknown: self.unknown.iter().take(points).copied().collect(),
+            clearance_m: self.clearance_m.iter().take(points).copied().collect(),
+            sidles: self.sidles.iter().filter(ends).copied().collect(),
+            cost_m: self.cost_m,
+            ..Self::default()
+        }
+    }
+}
+
 /// The word of a refusal, as in `result.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {

@@ -1,7 +1,7 @@
 //! The legs of a plan: the way to the next climb, cut off where the climb's own states take over.
 
 use geometry::{PlanarPose, distance_m};
-use planning::{Path, Plan, Step};
+use planning::{Plan, Step};
 use stairs::{ClimbingConfig, Feet};
 
 use crate::{climbing::StairClimbingConfig, climbing::tuning::ApproachLegTuning};
@@ -65,19 +65,7 @@ impl<'a> ApproachLeg<'a> {
             .iter()
             .rposition(|place_m| !near(place_m))
             .map_or(1, |last| last + 1);
-        let mut cut = Path {
-            points_m: path.points_m[..kept].to_vec(),
-            unknown: path.unknown.iter().take(kept).copied().collect(),
-            clearance_m: path.clearance_m.iter().take(kept).copied().collect(),
-            sidles: path
-                .sidles
-                .iter()
-                .filter(|sidle| sidle.to_point < kept)
-                .copied()
-                .collect(),
-            cost_m: path.cost_m,
-            ..Path::default()
-        };
+        let mut cut = path.first(kept);
         cut.points_m.push([self.align.x_m, self.align.y_m]);
         cut.unknown.push(false);
         let clearance_m = cut.clearance_m.last().copied().unwrap_or(f64::INFINITY);

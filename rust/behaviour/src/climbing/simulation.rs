@@ -20,31 +20,6 @@ use crate::walking::simulation::walking;
 pub(crate) use course::{stair, straight};
 
 pub(crate) const TICK_NS: u64 = 10_000_000;
-pub(crate) const STEPS: planning::footsteps::StepLimits = planning::footsteps::StepLimits {
-    sole: planning::footsteps::SoleSize {
-        length_m: 0.105,
-        width_m: 0.075,
-    },
-    stance_width_m: 0.085,
-    foot_gap_m: 0.008,
-    max_forward_m: 0.07,
-    max_backward_m: 0.05,
-    max_sideways_m: 0.1,
-    max_turn_rad: 0.3,
-    careful_forward_m: 0.135,
-    careful_sideways_m: 0.05,
-    careful_rise_m: 0.055,
-    careful_lift_m: 0.084,
-    clearance_m: [0.02, 0.02],
-    walked_s: 0.5,
-    careful_air_s: 0.8,
-    careful_ground_s: 0.4,
-    careful_speed_mps: 0.195,
-    careful_lift_mps: 0.08,
-    body_radius_m: 0.14,
-    body_from_m: 0.15,
-};
-
 pub(crate) const FEET: Feet = Feet {
     length_m: 0.105,
     pair_width_m: 0.16,

@@ -124,7 +124,6 @@ impl Footsteps {
         if self.given_up.0 >= self.config.tries || !self.stands_to_walk(tick) {
             self.refuse(reason);
         } else {
-            self.reason = Some(reason);
             self.begin_walk(tick);
         }
     }

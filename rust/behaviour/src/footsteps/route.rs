@@ -1,10 +1,8 @@
 //! The steps that are planned: over the ground as it is known now, from where the feet stand.
 
-use geometry::{Cell, CellArea, PlanarPose};
+use geometry::{Cell, CellArea, Goal, PlanarPose};
 use mapping::HeightMap;
-use planning::footsteps::{
-    FootstepPlan, FootstepQuestion, NoFootsteps, PlannedFootstep, StepLimits, Unseen,
-};
+use planning::footsteps::{FootstepPlan, FootstepQuestion, NoFootsteps, PlannedFootstep, Unseen};
 use robot::Side;
 use terrain::ground_map::SoleOnGround;
 
@@ -46,10 +44,9 @@ impl Failed {
         self.feet.len()
     }
 
-    /// Moves the ground under soles that failed out of reach: down where there was none, up where something was in the way.
-    fn take_from(&self, map: &mut HeightMap, limits: &StepLimits) {
-        let half_m = [0.5 * limits.sole.length_m, 0.5 * limits.sole.width_m];
-        let out_of_reach_m = 2.0 * limits.careful_rise_m;
+    /// Moves the ground under soles of this half length and breadth, m, that failed, out of reach of legs that climb so high, m: down where there was none, up where something was in the way.
+    fn take_from(&self, map: &mut HeightMap, half_m: [f64; 2], rise_m: f64) {
+        let out_of_reach_m = 2.0 * rise_m;
         for &[x_m, y_m] in &self.unseen_m {
             let place = PlanarPose::new(x_m, y_m, 0.0);
             for cell in cells_under(map, &place, [half_m[0]; 2]) {
@@ -61,7 +58,7 @@ impl Failed {
         // One failure may be a matter of balance, and the place is looked at again.
         let again = |hold: &Footstep| {
             let near = |other: &&(Footstep, Misstep)| {
-                other.0.pose.distance_m(&hold.pose) < limits.sole.length_m
+                other.0.pose.distance_m(&hold.pose) < 2.0 * half_m[0]
             };
             self.feet.iter().filter(near).count() > 1
         };
@@ -124,7 +121,8 @@ impl Footsteps {
         let (view, stairs) = (tick.situation.view, tick.situation.stairs);
         let around_m = [tick.pose.x_m, tick.pose.y_m];
         let _ = self.ground.read(view, stairs, around_m);
-        self.failed.take_from(self.ground.map_mut(), &limits);
+        self.failed
+            .take_from(self.ground.map_mut(), half_m, limits.careful_rise_m);
         for (pose, height_m) in feet.iter().zip(heights_m) {
             self.ground.stand_on(&SoleOnGround {
                 pose: *pose,
@@ -153,7 +151,12 @@ impl Footsteps {
             unseen,
         };
         let goal = tick.situation.goal;
-        self.layer.plan_over(self.ground.map(), &question, goal)
+        // At its rim it would not be sure to have arrived.
+        let inside = Goal {
+            radius_m: self.walking.config().arrive_share * goal.radius_m,
+            ..*goal
+        };
+        self.layer.plan_over(self.ground.map(), &question, &inside)
     }
 
     /// Height of the ground under a foot, m.
@@ -230,8 +233,6 @@ mod tests {
             origin_m: [0.0; 2],
             cell_m: 0.01,
         };
-        let mut limits = crate::climbing::simulation::STEPS;
-        limits.careful_rise_m = 0.05;
         let hold = Footstep {
             side: Side::Left,
             pose: PlanarPose::new(0.5, 0.5, 0.3),
@@ -243,7 +244,7 @@ mod tests {
             let mut heights_m = Grid::filled(100, 100, 0.03);
             *heights_m.get_mut(lattice.cell_at(0.2, 0.2)).unwrap() = f32::NAN;
             let mut map = HeightMap::new(lattice, heights_m, 0.0);
-            failed.take_from(&mut map, &limits);
+            failed.take_from(&mut map, [0.05, 0.04], 0.05);
             map
         };
         let at = |map: &HeightMap, place_m: f64| map.height_m(lattice.cell_at(place_m, place_m));

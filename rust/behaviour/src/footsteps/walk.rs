@@ -172,21 +172,8 @@ impl Footsteps {
         let before_m = self.config.stop_before - self.config.stop_slack;
         let before = |place_m: &[f64; 2]| front.beyond_m(*place_m) < -before_m;
         let kept = path.points_m[..=end].iter().rposition(before)? + 1;
-        let cut = Path {
-            points_m: path.points_m[..kept].to_vec(),
-            unknown: path.unknown.iter().take(kept).copied().collect(),
-            clearance_m: path.clearance_m.iter().take(kept).copied().collect(),
-            sidles: path
-                .sidles
-                .iter()
-                .filter(|sidle| sidle.to_point < kept)
-                .copied()
-                .collect(),
-            cost_m: path.cost_m,
-            ..Path::default()
-        };
         Some(Plan {
-            way: Ok(cut),
+            way: Ok(path.first(kept)),
             replanned: plan.replanned,
         })
     }
