@@ -100,7 +100,10 @@ impl Footsteps {
         self.looks += 1;
         let reason = tick.no_way_reason().unwrap_or_else(reason);
         let unseen_m = at_m.filter(|_| self.failed.unseen() < self.config.longer as usize);
-        if self.looks > self.config.tries {
+        if tick.goal_away_m() <= tick.situation.goal.radius_m && self.is_on_the_goals_level(tick) {
+            // As deep in the goal as the way leads.
+            self.enter(State::Arrive);
+        } else if self.looks > self.config.tries {
             self.give_up(tick, reason);
         } else if let Some(unseen_m) = unseen_m.filter(|_| self.looks == self.config.tries) {
             // What cannot be seen from here leads nowhere; there may be other ways.
@@ -128,12 +131,15 @@ impl Footsteps {
         }
     }
 
+    /// Whether the robot is on the goal's level: both that height and its own may be off by what told heights may.
+    fn is_on_the_goals_level(&self, tick: &Tick<'_>) -> bool {
+        tick.goal_off_level_m()
+            .is_none_or(|off_m| off_m <= 2.0 * self.told_m)
+    }
+
     /// The robot is at the goal, if that is on its level.
     fn arrive(&mut self, tick: &Tick<'_>) {
-        let on_level = tick
-            .goal_off_level_m()
-            .is_none_or(|off_m| off_m <= 2.0 * self.told_m);
-        if on_level {
+        if self.is_on_the_goals_level(tick) {
             self.enter(State::Arrive);
         } else {
             self.refuse("no_path: the goal lies above or below this place".to_owned());
