@@ -40,4 +40,4 @@ pub use config::{
 pub use edge_line::EdgeLine;
 pub use edges::edge_model::{EdgeModel, FittedEdge, Untrusted};
 pub use recognizer::{Recognizer, StairsError};
-pub use stair::{Edge, EdgeFit, Sides, Stair, Staircase};
+pub use stair::{Edge, EdgeFit, Sides, Stair, Staircase, SureEdge};

@@ -114,6 +114,8 @@ impl Recognizer {
         }
         self.fits.apply(stairs, &self.config.tuning.edges);
         self.fits
+            .sure(&mut self.staircase.edges, &self.config.tuning.edges.fits);
+        self.fits
             .bevels(&mut self.bevels, &self.config.tuning.edges);
         sort_by_nearness(stairs, map_from_robot);
         self.staircase.frames = self.memory.frames;

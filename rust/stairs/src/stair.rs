@@ -73,6 +73,17 @@ pub struct Staircase {
     pub stairs: Vec<Stair<Map>>,
     /// Frames merged since the robot last stepped.
     pub frames: u32,
+    /// Every edge that was fitted well, whatever became of the stairs beside it.
+    pub edges: Vec<SureEdge>,
+}
+
+/// An edge that was fitted well: where ground of one level ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SureEdge {
+    /// As far as it was ever fitted.
+    pub edge: Edge<Map>,
+    /// Heights before and behind it, m.
+    pub heights_m: [f64; 2],
 }
 
 impl<F> Edge<F> {

@@ -4,14 +4,16 @@
 //! height of the nearest cell on its side of that, and where heights end at no edge that is known, the ground is not known.
 
 mod config;
+mod plain;
 mod stair_edges;
 mod under_soles;
 
 use geometry::{Cell, CellArea, Grid, Lattice, PlanarPose};
-use mapping::{FloorView, HeightMap, Surface};
+use mapping::{FloorView, HeightMap};
 use stairs::Staircase;
 
 pub use config::GroundMapConfig;
+use plain::Plain;
 use stair_edges::{KnownEdge, StairEdges};
 
 /// What a sole stands on now.
@@ -35,28 +37,6 @@ pub struct GroundMap {
     /// What a cell of the view says by itself, row by row of the part that is read.
     plain: Grid<Plain>,
     map: HeightMap,
-}
-
-/// What a cell of the view says by itself.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Plain {
-    Unseen,
-    /// Ground on which no other level borders, m.
-    Level(f32),
-    /// Ground beside another level, m: where in the cell it ends is not known.
-    Border(f32),
-    /// Something that nobody stands on, up to this height, m.
-    Obstacle(f32),
-}
-
-impl Plain {
-    /// Its height, m, where it is ground.
-    const fn ground_m(self) -> Option<f32> {
-        match self {
-            Self::Level(height_m) | Self::Border(height_m) => Some(height_m),
-            Self::Unseen | Self::Obstacle(_) => None,
-        }
-    }
 }
 
 impl GroundMap {
@@ -134,24 +114,8 @@ impl GroundMap {
         let cols = size(area.min.col, area.max.col);
         let rows = size(area.min.row, area.max.row);
         self.plain = Grid::filled(cols, rows, Plain::Unseen);
-        let level_m = self.config.level as f32;
         for (index, cell) in area.cells().enumerate() {
-            self.plain.values_mut()[index] = match view.cell(cell) {
-                Surface::Unknown => Plain::Unseen,
-                Surface::Obstacle(top_m) => Plain::Obstacle(top_m),
-                Surface::Floor(height_m) => {
-                    let around = CellArea::of(cell).grown(1);
-                    let borders = around.cells().any(|beside| match view.cell(beside) {
-                        Surface::Floor(other_m) => (other_m - height_m).abs() > level_m,
-                        _ => false,
-                    });
-                    if borders {
-                        Plain::Border(height_m)
-                    } else {
-                        Plain::Level(height_m)
-                    }
-                }
-            };
+            self.plain.values_mut()[index] = Plain::of(view, cell, &self.config);
         }
     }
 
@@ -163,7 +127,7 @@ impl GroundMap {
         let (mut edges, mut levels_m) = (Vec::new(), Vec::new());
         if matches!(plain, Plain::Border(_) | Plain::Obstacle(_)) {
             edges = self.edges.near(middle_m, near_m);
-            levels_m = self.edges.levels_near(middle_m, near_m);
+            levels_m.extend(edges.iter().flat_map(|edge| edge.levels_m));
         }
         if let Plain::Obstacle(top_m) = plain {
             // A riser may be taken for something that stands before it, as high as the stair behind it.
@@ -176,43 +140,41 @@ impl GroundMap {
         for row in 0..fine {
             for col in 0..fine {
                 let at = Cell::new(cell.col * fine + col, cell.row * fine + row);
+                let at_m = self.map.lattice.center_of(at);
                 let height_m = if edges.is_empty() {
                     self.plain_height_m(plain, cell)
                 } else {
-                    let at_m = self.map.lattice.center_of(at);
-                    self.cut_height_m((cell, middle_m, cell_m), &edges, at_m)
-                        .map(|height_m| self.as_stair_m(height_m, &levels_m))
+                    self.cut_height_m((cell, middle_m, cell_m), (&edges, &levels_m), at_m)
                 };
-                if let Some(height_m) = height_m {
-                    self.map.set(at, height_m, sigma_m);
+                match (height_m, plain) {
+                    (Some(height_m), _) => self.map.set(at, height_m, sigma_m),
+                    (
+                        None,
+                        Plain::Level(about_m) | Plain::Border(about_m) | Plain::Missing(about_m),
+                    ) => {
+                        self.map.set_blurred(at, about_m);
+                    }
+                    (None, Plain::Unseen | Plain::Obstacle(_)) => {}
                 }
             }
         }
     }
 
-    /// The height where no known edge is near, m. Where in a cell two levels meet is not known: none, where legs could step from one to the
-    /// other.
+    /// The height where no known edge is near, m. Where in a cell two levels meet is not known: there is none.
     fn plain_height_m(&self, plain: Plain, cell: Cell) -> Option<f32> {
         match plain {
-            Plain::Unseen => None,
+            Plain::Unseen | Plain::Missing(_) | Plain::Border(_) => None,
             Plain::Level(height_m) => Some(height_m),
             Plain::Obstacle(top_m) => Some(self.out_of_reach_m(top_m, cell)),
-            Plain::Border(height_m) => {
-                let level_m = self.config.level as f32;
-                let mut steps = self
-                    .around(cell, 1)
-                    .map(|(_, other_m)| (other_m - height_m).abs());
-                let climbable = steps.any(|rise_m| rise_m > level_m && rise_m <= self.rise_m);
-                (!climbable).then_some(height_m)
-            }
         }
     }
 
-    /// The height at a place beside known edges, m: that of the nearest cell of the map of those that the fewest edges separate from it.
+    /// The height at a place beside known edges, m: that of the nearest cell of the map of those that the fewest edges separate from it. None
+    /// where cells meet at other heights than those edges explain.
     fn cut_height_m(
         &self,
         (cell, middle_m, cell_m): (Cell, [f64; 2], f64),
-        edges: &[KnownEdge],
+        (edges, levels_m): (&[KnownEdge], &[f32]),
         at_m: [f64; 2],
     ) -> Option<f32> {
         let middle_of = |[cols, rows]: [i32; 2]| {
@@ -221,18 +183,31 @@ impl GroundMap {
                 middle_m[1] + cell_m * f64::from(rows),
             ]
         };
-        let beside = self.around(cell, 2).map(|(by, height_m)| {
-            let other_m = middle_of(by);
-            let separated = edges.iter().filter(|edge| edge.separates(at_m, other_m));
-            let away_m = geometry::distance_m(other_m, at_m);
-            (separated.count(), away_m, height_m)
-        });
-        let nearest = beside.min_by(|a, b| {
+        let beside = || {
+            self.around(cell, 2).map(|(by, height_m)| {
+                let other_m = middle_of(by);
+                let separated = edges.iter().filter(|edge| edge.separates(at_m, other_m));
+                let away_m = geometry::distance_m(other_m, at_m);
+                let height_m = self.as_stair_m(height_m, levels_m);
+                (separated.count(), away_m, height_m, other_m)
+            })
+        };
+        let (separated, _, height_m, _) = beside().min_by(|a, b| {
             a.0.cmp(&b.0)
                 .then(a.1.total_cmp(&b.1))
                 .then(a.2.total_cmp(&b.2))
+        })?;
+        let level_m = self.config.level as f32;
+        let mut unexplained = beside().filter(|&(count, away_m, other_height_m, other_m)| {
+            let heights_m = [other_height_m, height_m];
+            count == separated
+                && away_m < self.config.unexplained_cells * cell_m
+                && (other_height_m - height_m).abs() > level_m
+                && !(edges.iter()).any(|edge| edge.explains((other_m, cell_m), heights_m, level_m))
         });
-        nearest.map(|(_, _, height_m)| height_m)
+        // One alone is off itself.
+        let explained = unexplained.nth(1).is_none();
+        explained.then_some(height_m)
     }
 
     /// The height of the stair that is as high as the map has it, m: cells that hold two levels have a height between them.

@@ -11,7 +11,9 @@ use crate::edges::fusion::FusedEdge;
 use crate::edges::joints::{apart_m, before, part_beside};
 use crate::frame::view::PlanesView;
 use crate::lines::line::StraightLine;
-use crate::{Edge, EdgeFit, EdgeModel, EdgesTuning, FitsTuning, Stair, StairsConfig, StairsTuning};
+use crate::{
+    Edge, EdgeFit, EdgeModel, EdgesTuning, FitsTuning, Stair, StairsConfig, StairsTuning, SureEdge,
+};
 
 /// Fits edges and keeps what is found.
 #[derive(Debug, Clone)]
@@ -126,6 +128,19 @@ impl Fits {
             let new = FusedEdge::new(&fitted, &edge, heights_m, &map_from_camera, fusion);
             self.edges.push(new);
         }
+    }
+
+    /// The edges that were fitted well.
+    pub(crate) fn sure(&self, list: &mut Vec<SureEdge>, tuning: &FitsTuning) {
+        list.clear();
+        let sure = self
+            .edges
+            .iter()
+            .filter(|fused| is_sure(&fused.fit, tuning));
+        list.extend(sure.map(|fused| SureEdge {
+            edge: fused.whole(),
+            heights_m: fused.heights_m,
+        }));
     }
 
     /// The changes of height that are short slopes.

@@ -78,6 +78,8 @@ pub(crate) struct FusedEdge {
     /// The edge by all looks, as long as in the last of them.
     pub(super) edge: Edge<Map>,
     ends: Edge<Map>,
+    /// From end to end of all fits.
+    whole: Edge<Map>,
     /// How sure it is.
     pub(super) fit: EdgeFit,
 }
@@ -99,6 +101,7 @@ impl FusedEdge {
             looks,
             edge: *edge,
             ends: *edge,
+            whole: *edge,
             fit: EdgeFit {
                 frames: 1,
                 place_sigma_m: sigmas.0,
@@ -119,6 +122,7 @@ impl FusedEdge {
         let frame = EdgeLook::new(edge, sigmas, camera);
         self.steps_ago = 0;
         self.ends = *edge;
+        self.whole = self.whole.and(edge);
         let mut looks = self.looks.iter_mut();
         if let Some(look) = looks.find(|look| look.is_like(&frame, tuning)) {
             look.join(&frame);
@@ -130,6 +134,13 @@ impl FusedEdge {
             self.looks.push(frame);
         }
         self.solve(tuning);
+    }
+
+    /// All of it, as far as it was ever fitted.
+    pub(crate) fn whole(&self) -> Edge<Map> {
+        self.edge
+            .line()
+            .map_or(self.whole, |line| self.whole.onto(&line))
     }
 
     /// The robot stepped.

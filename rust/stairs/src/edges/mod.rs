@@ -5,3 +5,4 @@ pub(crate) mod edge_model;
 pub(crate) mod fits;
 pub(crate) mod fusion;
 pub(crate) mod joints;
+pub(crate) mod sure;

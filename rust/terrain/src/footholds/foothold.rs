@@ -1,6 +1,6 @@
 //! A sole on a height map.
 
-use geometry::{Cell, PlanarPose};
+use geometry::{Cell, Grid, PlanarPose};
 use mapping::HeightMap;
 
 use super::config::FootholdConfig;
@@ -80,7 +80,8 @@ impl Footholds {
         } = self;
         let raster = &rasters[heading];
         let cells = CellsAround::of(map, middle, raster.reach).ok_or(NoFoothold::Unseen)?;
-        let place = |cell: &CellUnder| cells.ground(cell, config);
+        let place = |cell: &CellUnder| cells.ground(map.heights_m(), cell, config);
+        let top = |cell: &CellUnder| cells.ground(map.tops_m(), cell, config);
         ground.clear();
         ground.extend(raster.under.iter().map(place).filter(PlaceUnder::is_known));
         let all = raster.under.len() as f32;
@@ -116,7 +117,8 @@ impl Footholds {
         }
         // What was not seen is higher than nothing.
         let is_higher = |beside: PlaceUnder| plane.above_m(&beside) > beside.within_m;
-        if raster.around.iter().map(place).any(is_higher) {
+        let mut beside = raster.under.iter().chain(&raster.around).map(top);
+        if beside.any(is_higher) {
             return Err(NoFoothold::Higher);
         }
         Ok(Foothold {
@@ -127,7 +129,8 @@ impl Footholds {
         })
     }
 
-    /// Whether nothing on the way of a foot is higher than this, m: over straight ground from one place to the other, turning on the way.
+    /// Whether nothing on the way of a foot is higher than this, m: over straight ground from one place to the other, turning on the way. Where
+    /// the foot stands there is nothing, whatever the map has.
     pub fn is_way_free(
         &self,
         (map, blocks): (&HeightMap, &HighBlocks),
@@ -154,6 +157,14 @@ impl Footholds {
         let places = (from.distance_m(to) / (0.5 * self.sole.width_m))
             .ceil()
             .max(1.0) as i32;
+        let map_in_from = from.inverse();
+        let half_m = [self.sole.length_m, self.sole.width_m]
+            .map(|size_m| 0.5 * size_m + self.config.higher_margin);
+        let stands_there = |cell: Cell| {
+            let [x_m, y_m] = lattice.center_of(cell);
+            let (ahead_m, left_m) = map_in_from.apply(x_m, y_m);
+            ahead_m.abs() <= half_m[0] && left_m.abs() <= half_m[1]
+        };
         (0..=places).all(|place| {
             let share = f64::from(place) / f64::from(places);
             let between = |from_m: f64, to_m: f64| from_m + share * (to_m - from_m);
@@ -165,8 +176,8 @@ impl Footholds {
             };
             self.rasters[heading].under.iter().all(|cell| {
                 let under = Cell::new(middle.col + cell.offset[0], middle.row + cell.offset[1]);
-                map.height_m(under)
-                    .is_none_or(|height_m| height_m <= than_m)
+                let top_m = map.tops_m().get(under).copied();
+                top_m.is_none_or(|top_m| top_m.is_nan() || top_m <= than_m) || stands_there(under)
             })
         })
     }
@@ -196,13 +207,18 @@ impl<'a> CellsAround<'a> {
         })
     }
 
-    fn ground(&self, cell: &CellUnder, config: &FootholdConfig) -> PlaceUnder {
+    fn ground(
+        &self,
+        heights_m: &Grid<f32>,
+        cell: &CellUnder,
+        config: &FootholdConfig,
+    ) -> PlaceUnder {
         let [col, row] = cell.offset.map(|cells| cells as isize);
         let index = (self.middle + row * self.cols + col) as usize;
         let sigma_m = self.map.sigmas_m().values()[index];
         PlaceUnder {
             at_m: cell.at_m,
-            height_m: self.map.heights_m().values()[index],
+            height_m: heights_m.values()[index],
             strip: cell.strip,
             within_m: (config.level as f32).max(config.sigmas as f32 * sigma_m),
         }

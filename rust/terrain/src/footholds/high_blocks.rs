@@ -16,7 +16,7 @@ pub struct HighBlocks {
 impl HighBlocks {
     /// Of a height map; to be made anew when that changes.
     pub fn new(map: &HeightMap) -> Self {
-        let heights_m = map.heights_m();
+        let heights_m = map.tops_m();
         let side = BLOCK as usize;
         let blocks = [heights_m.cols(), heights_m.rows()].map(|cells| cells.div_ceil(side));
         let mut highest_m = Grid::filled(blocks[0], blocks[1], f32::NEG_INFINITY);
@@ -63,7 +63,7 @@ impl HighBlocks {
         if !self.may_be_higher(area, than_m) {
             return false;
         }
-        let heights_m = map.heights_m();
+        let heights_m = map.tops_m();
         let within = area.within(heights_m.area());
         let cell_m = lattice.cell_m;
         (within.min.row..=within.max.row).any(|row| {

@@ -1,15 +1,13 @@
 //! Ground read from cells of 4 cm and edges.
 
-use geometry::{Cell, Grid, Lattice, PlanarPose};
+use geometry::{Cell, Grid, Lattice, PlanarPose, Point};
 use mapping::{FloorView, Surface};
 use proptest::prelude::*;
-use stairs::Staircase;
+use stairs::{Edge, Staircase, SureEdge};
 
 use super::*;
-use crate::testing::stair;
 
 const RISE_M: f64 = 0.055;
-
 /// A map of 3.2 m a side with cells of 4 cm, each as high as its middle.
 fn view(surface: impl Fn(f64, f64) -> Surface) -> FloorView {
     let lattice = Lattice {
@@ -33,9 +31,24 @@ fn soles() -> [SoleOnGround; 2] {
     })
 }
 
-fn read(view: &FloorView, stairs: Vec<stairs::Stair<geometry::Map>>) -> HeightMap {
+/// An edge across the x axis, so long and with these levels before and behind it, m.
+fn edge(x_m: f64, length_m: f64, heights_m: [f64; 2]) -> SureEdge {
+    let end = |y_m: f64| Point::new(x_m, y_m, heights_m[1]);
+    SureEdge {
+        edge: Edge {
+            left: end(0.5 * length_m),
+            right: end(-0.5 * length_m),
+        },
+        heights_m,
+    }
+}
+
+fn read(view: &FloorView, edges: Vec<SureEdge>) -> HeightMap {
     let mut ground = GroundMap::new(GroundMapConfig::default(), RISE_M);
-    let stairs = Staircase { stairs, frames: 9 };
+    let stairs = Staircase {
+        edges,
+        ..Staircase::default()
+    };
     let _ = ground.read(view, &stairs, [0.0; 2]);
     for sole in soles() {
         ground.stand_on(&sole);
@@ -52,13 +65,11 @@ proptest! {
     fn edges_run_where_the_recognizer_has_them_wherever_cells_lie(first_m in 0.3..0.4f64, tread_m in 0.11..0.25f64, rise_m in 0.015..0.05f64) {
         let true_m = |x_m: f64| rise_m * ((x_m - first_m) / tread_m + 1.0).floor().clamp(0.0, 3.0);
         let view = view(|x_m, _| Surface::Floor(true_m(x_m) as f32));
-        let steps = (0..3).map(|step| {
-            let (at_m, depth_m) = (first_m + f64::from(step) * tread_m, if step < 2 { tread_m } else { 0.6 });
-            let mut step = stair(at_m, depth_m, rise_m * f64::from(step + 1), 1.2);
-            (step.seen_ends.front, step.seen_ends.back) = (20, 20);
-            step
+        let edges = (0..3).map(|step| {
+            let heights_m = [step, step + 1].map(|step| rise_m * f64::from(step));
+            edge(first_m + f64::from(step) * tread_m, 1.2, heights_m)
         });
-        let map = read(&view, steps.collect());
+        let map = read(&view, edges.collect());
         let cell_m = map.lattice.cell_m;
         for col in 0..map.heights_m().cols() as i32 {
             let [x_m, _] = map.lattice.center_of(Cell::new(col, 0));
@@ -72,33 +83,58 @@ proptest! {
 }
 
 #[test]
-fn where_a_level_ends_is_not_known_without_an_edge_unless_legs_cannot_step_there() {
-    for (rise_m, known) in [(0.04, false), (0.12, true)] {
+fn where_a_level_ends_is_not_known_without_an_edge() {
+    for rise_m in [0.04, 0.12] {
         let view = view(|x_m, _| Surface::Floor(if x_m > 0.41 { rise_m } else { 0.0 }));
         let map = read(&view, Vec::new());
-        assert_eq!(height_m(&map, 0.39, 0.0).is_some(), known);
-        assert_eq!(height_m(&map, 0.43, 0.0).is_some(), known);
+        assert_eq!(height_m(&map, 0.39, 0.0), None);
+        assert_eq!(height_m(&map, 0.43, 0.0), None);
         assert_eq!(height_m(&map, 0.3, 0.0), Some(0.0));
         assert_eq!(height_m(&map, 0.6, 0.0), Some(rise_m));
     }
 }
 
 #[test]
-fn a_stair_whose_height_the_map_does_not_have_is_not_believed() {
+fn at_the_side_of_a_stair_nothing_is_known() {
+    // Its front is at x = 0.4 m and was fitted, its side at y = 0.18 m, inside a row of cells, was not.
+    let view = view(|x_m, y_m| Surface::Floor(if x_m > 0.4 && y_m < 0.18 { 0.03 } else { 0.0 }));
+    let map = read(&view, vec![edge(0.4, 0.36, [0.0, 0.03])]);
+    for x_m in [0.5, 0.6] {
+        assert_eq!(height_m(&map, x_m, 0.0), Some(0.03), "{x_m}");
+        assert_eq!(height_m(&map, x_m, 0.17), None, "{x_m}");
+        assert_eq!(height_m(&map, x_m, 0.26), Some(0.0), "{x_m}");
+    }
+    assert_eq!(height_m(&map, 0.36, 0.1), Some(0.0));
+}
+
+#[test]
+fn an_edge_whose_levels_the_map_does_not_have_is_not_believed() {
     let floor = view(|_, _| Surface::Floor(0.0));
-    let map = read(&floor, vec![stair(0.5, 0.3, 0.06, 0.8)]);
+    let map = read(&floor, vec![edge(0.5, 0.8, [0.0, 0.06])]);
     assert_eq!(height_m(&map, 0.6, 0.0), Some(0.0));
 }
 
 #[test]
-fn where_only_a_view_of_a_platform_ended_the_platform_goes_on() {
+fn where_only_the_fit_of_an_edge_ended_the_platform_goes_on() {
     let view = view(|x_m, _| Surface::Floor(if x_m > 0.42 { 0.18 } else { 0.0 }));
-    let mut part = stair(0.42, 0.6, 0.18, 0.4);
-    part.seen_ends.front = 20;
-    let map = read(&view, vec![part]);
+    let map = read(&view, vec![edge(0.42, 0.4, [0.0, 0.18])]);
     for y_m in [0.0, 0.21, 0.25, 0.6] {
         assert_eq!(height_m(&map, 0.48, y_m), Some(0.18), "{y_m}");
         assert_eq!(height_m(&map, 0.36, y_m), Some(0.0), "{y_m}");
+    }
+}
+
+#[test]
+fn what_is_missing_in_the_midst_of_a_level_or_looks_like_an_obstacle_of_one_cell_is_crossed() {
+    for odd in [Surface::Unknown, Surface::Obstacle(0.3)] {
+        let view = view(|x_m, y_m| {
+            let here = (x_m - 0.5).abs() < 0.02 && (y_m - 0.5).abs() < 0.02;
+            if here { odd } else { Surface::Floor(0.0) }
+        });
+        let map = read(&view, Vec::new());
+        let cell = map.lattice.cell_at(0.5, 0.5);
+        assert_eq!((map.height_m(cell), map.blurred_m(cell)), (None, Some(0.0)));
+        assert_eq!(height_m(&map, 0.44, 0.5), Some(0.0));
     }
 }
 

@@ -5,7 +5,8 @@ use geometry::{Cell, CellArea, PlanarPose};
 use super::{GroundMap, SoleOnGround};
 
 impl GroundMap {
-    /// Under a sole that stands there is ground: as high as the map has it where that is about where the foot is, else as high as the foot.
+    /// Under a sole that stands there is ground where nothing else is known: as high as the map has it where that is about where the foot is, else
+    /// as high as the foot.
     pub fn stand_on(&mut self, sole: &SoleOnGround) {
         let lattice = self.map.lattice;
         let around_m = sole.half_m.map(|half_m| half_m + lattice.cell_m);
@@ -27,9 +28,15 @@ impl GroundMap {
         let seen = under.filter_map(|cell| self.map.height_m(cell));
         let height_m = median(seen.filter(as_felt).collect()).unwrap_or(sole.height_m);
         let sigma_m = self.config.sigma as f32;
-        for cell in area.cells() {
-            let beside = within(cell, around_m) && self.map.height_m(cell).is_none();
-            if within(cell, sole.half_m) || beside {
+        let middle = lattice.cell_at(x_m, y_m);
+        for cell in area.cells().filter(|&cell| within(cell, around_m)) {
+            // A part that is known to hang over lower ground goes on to do so.
+            let hangs = match (self.map.height_m(cell), self.map.blurred_m(cell)) {
+                (Some(known_m), _) => !within(cell, sole.half_m) || !as_felt(&known_m),
+                (None, Some(about_m)) => !as_felt(&about_m),
+                (None, None) => false,
+            };
+            if !hangs || cell == middle {
                 self.map.set(cell, height_m, sigma_m);
             }
         }

@@ -152,3 +152,44 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn nothing_is_in_the_way_where_the_foot_stands_but_what_is_high_ahead_is() {
+    let free = |high: [f64; 2]| {
+        let map = map(|x_m, _| {
+            if (high[0]..high[1]).contains(&x_m) {
+                0.1
+            } else {
+                0.0
+            }
+        });
+        let config = FootholdConfig::default();
+        let footholds = Footholds::new(config, SOLE, std::iter::once(0.0), ([0.0; 2], CELL_M));
+        let places = [0.0, 0.15].map(|x_m| PlanarPose::new(x_m, 0.0, 0.0));
+        let (from, to) = ((&places[0], 0), (&places[1], 0));
+        footholds.is_way_free((&map, &HighBlocks::new(&map)), from, to, 0.03)
+    };
+    // The map has something where the foot is: it is off.
+    assert!(free([-0.06, -0.03]));
+    assert!(!free([0.08, 0.1]));
+    assert!(!free([-0.03, 0.2]));
+}
+
+#[test]
+fn what_is_blurred_bears_nothing_and_is_in_the_way_where_it_is_high() {
+    let mut floor = map(|_, _| 0.0);
+    for cell in floor.heights_m().area().cells() {
+        let [x_m, _] = floor.lattice.center_of(cell);
+        if x_m > 0.03 {
+            floor.set_blurred(cell, 0.0);
+        }
+    }
+    let found = stand(&floor, 0.0, 0.0, 0.0).unwrap();
+    assert!(
+        found.bearing_share < 0.85 && found.bearing_m[1] < 0.04,
+        "{found:?}"
+    );
+    let cell = floor.lattice.cell_at(0.045, 0.0);
+    floor.set_blurred(cell, 0.03);
+    assert_eq!(stand(&floor, 0.0, 0.0, 0.0), Err(NoFoothold::Higher));
+}
