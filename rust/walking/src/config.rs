@@ -96,8 +96,12 @@ settings! {
         climb_clearance: f64 = 0.02, "m", above_to(0.0, 10.0);
         /// Longest listed step forward or backward.
         climb_forward: f64 = 0.135, "m", above_to(0.0, 10.0);
+        /// A listed step that is walked goes forward and to the side at once so far, as the sum of its shares of the longest of each.
+        listed_both: f64 = 1.5, "1", within(1.0, 2.0);
         /// Largest extra distance between the feet in a listed step.
         climb_sideways: f64 = 0.05, "m", above_to(0.0, 10.0);
+        /// Largest extra distance between the feet in the highest careful step down, for which the legs are stretched already.
+        climb_sideways_down: f64 = 0.015, "m", above_to(0.0, 10.0);
         /// Highest listed step up or down.
         climb_rise: f64 = 0.055, "m", above_to(0.0, 10.0);
         /// Speed at which a foot goes down that has not found the ground where it was told to be.

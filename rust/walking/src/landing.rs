@@ -72,12 +72,22 @@ impl Gait {
             }
         } else if *elapsed_s >= swing_s {
             *elapsed_s = swing_s;
-            if felt.short_m[swing.side.index()] > self.config.tuning.landing.short {
+            let tuning = &self.config.tuning.landing;
+            if felt.short_m[swing.side.index()] > tuning.short {
+                // The hips come down, or never far enough: then the ground is out of reach.
+                swing.landing = match swing.landing {
+                    CarefulLanding::Short(waited_s) if waited_s >= tuning.short_time => {
+                        return self.find_no_ground(task);
+                    }
+                    CarefulLanding::Short(waited_s) => CarefulLanding::Short(waited_s + passed_s),
+                    CarefulLanding::Seeking(0.0) => CarefulLanding::Short(passed_s),
+                    below => below,
+                };
                 return;
             }
             let below_m = match swing.landing {
                 CarefulLanding::Seeking(below_m) => below_m + self.config.probe_speed * passed_s,
-                CarefulLanding::Found(_) => 0.0,
+                CarefulLanding::Short(_) | CarefulLanding::Found(_) => 0.0,
             };
             swing.landing = CarefulLanding::Seeking(below_m);
             if below_m >= self.config.probe_depth {
@@ -174,5 +184,28 @@ mod tests {
         let most_m = 0.1 * config().press_speed;
         assert!((pressed_m(0.2) - most_m).abs() < 1e-9);
         assert_eq!(pressed_m(config().landing_load + 1.0), 0.0);
+    }
+
+    #[test]
+    fn a_leg_that_stays_too_short_for_the_ground_takes_its_foot_back() {
+        let (from, to) = (foot_at(0.0, 0.0425), foot_at(0.1, 0.0425));
+        let swing = Swing::new(Side::Left, Manner::Careful, from, to);
+        let mut gait = on_its_way(swing, foot_at(0.0, -0.0425), 1.0);
+        let felt = Felt {
+            loads_n: [0.0, 50.0],
+            soles_m: [Vector3::new(0.1, 0.0425, 0.0), Vector3::zeros()],
+            short_m: [0.01, 0.0],
+            pressed_m: [Vector2::zeros(); 2],
+            touched_m: [Vector3::zeros(); 2],
+        };
+        let ticks = (config().tuning.landing.short_time / 0.01) as usize;
+        let mut advance = |ticks: usize| {
+            for _ in 0..ticks {
+                gait.advance(0.01, Task::Steps(&[]), &KnownGround::Felt(felt));
+            }
+            gait.listed.misstep
+        };
+        assert_eq!(advance(ticks), None);
+        assert_eq!(advance(10), Some(Misstep::NoGround));
     }
 }

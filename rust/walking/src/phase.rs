@@ -112,6 +112,8 @@ impl Manner {
 pub enum CarefulLanding {
     /// No ground yet, this far below where it was told to be, m.
     Seeking(f64),
+    /// None where it was told to be, and for this time, s, the leg has been too short to go further down.
+    Short(f64),
     /// Ground: the foot stays at this height, m.
     Found(f64),
 }
@@ -193,6 +195,7 @@ impl Swing {
         };
         match self.landing {
             CarefulLanding::Seeking(below_m) => z_m -= below_m,
+            CarefulLanding::Short(_) => {}
             CarefulLanding::Found(height_m) => z_m = height_m,
         }
         let turn = geometry::angle_between(from.planar.yaw_rad, to.planar.yaw_rad);

@@ -212,6 +212,8 @@ settings! {
         lag: f64 = 0.02, "s", within(0.0, 60.0);
         /// How short a leg may be while its foot is still sent further down: the hips come down more slowly than a foot.
         short: f64 = 0.001, "m", within(0.0, 10.0);
+        /// After this time in which the leg stays that short there is no ground within its reach.
+        short_time: f64 = 1.5, "s", within(0.0, 60.0);
         /// How far before what it met a foot then comes down.
         clear: f64 = 0.003, "m", above_to(0.0, 10.0);
     }
