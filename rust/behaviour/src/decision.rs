@@ -2,7 +2,8 @@
 
 use geometry::PlanarPose;
 use localization::Estimate;
-use mapping::FloorView;
+use mapping::{FloorView, HeightMap};
+use planning::footsteps::{FootstepPlan, NoFootsteps, PlanTimes};
 use planning::{Goal, Plan};
 use stairs::Staircase;
 
@@ -84,4 +85,22 @@ pub struct Decision {
 pub trait Behaviour: Send + Sync {
     /// The decision at a control tick.
     fn next(&mut self, situation: &Situation<'_>) -> Result<Decision, BehaviourError>;
+
+    /// The footsteps that it planned last, to look at; none of a behaviour that plans none.
+    fn planned_footsteps(&self) -> Option<PlannedFootsteps<'_>> {
+        None
+    }
+}
+
+/// Footsteps that a behaviour planned, and over what ground. Nothing that decides reads it.
+#[derive(Debug, Clone, Copy)]
+pub struct PlannedFootsteps<'a> {
+    /// The plan, or why there was none.
+    pub plan: Result<&'a FootstepPlan, NoFootsteps>,
+    /// The ground as it was known then.
+    pub ground: &'a HeightMap,
+    /// How long the planning took.
+    pub times: PlanTimes,
+    /// How many plans there were until then, this one too.
+    pub count: u64,
 }

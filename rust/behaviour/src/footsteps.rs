@@ -12,7 +12,7 @@ mod step;
 mod walk;
 
 use geometry::PlanarPose;
-use planning::footsteps::{FootstepLayer, FootstepsConfig, StepLimits};
+use planning::footsteps::{FootstepLayer, FootstepPlan, FootstepsConfig, NoFootsteps, StepLimits};
 use settings::{MakeError, Part, Table, TableDescription, read};
 use stairs::ClimbingConfig;
 use terrain::ground_map::GroundMap;
@@ -22,8 +22,8 @@ use crate::climbing::stepper::Stepper;
 use crate::machine::{Interruption, Machine, SightAgain, State as _, Tick};
 use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{
-    Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation, StairClimbingConfig,
-    WalkingBehaviour,
+    Behaviour, BehaviourError, Command, Decision, Motion, Outcome, PlannedFootsteps, Situation,
+    StairClimbingConfig, WalkingBehaviour,
 };
 pub use config::SteppingConfig;
 use route::{CostToGo, Failed};
@@ -58,14 +58,16 @@ pub struct Footsteps {
     failed: Failed,
     /// The walk to the next height change.
     lead: Option<Lead>,
-    /// How far it has come.
-    to_go: CostToGo,
+    /// How far it has come: from look to look, and from step to step.
+    to_go: [CostToGo; 2],
     /// Looks since the last step.
     looks: u32,
     /// Times that stepping was given up, and where that was last.
     given_up: (u32, Option<PlanarPose>),
     /// How many of the list's steps had landed when it was planned last.
     planned_at: usize,
+    /// The last plan, and how many there were.
+    planned: (Option<Result<FootstepPlan, NoFootsteps>>, u64),
 }
 
 impl Footsteps {
@@ -100,10 +102,11 @@ impl Footsteps {
             walking,
             failed: Failed::default(),
             lead: None,
-            to_go: CostToGo::default(),
+            to_go: [CostToGo::default(); 2],
             looks: 0,
             given_up: (0, None),
             planned_at: 0,
+            planned: (None, 0),
         })
     }
 
@@ -192,5 +195,15 @@ impl Behaviour for Footsteps {
             self.begin_walk(&tick);
         }
         Ok(decision)
+    }
+
+    fn planned_footsteps(&self) -> Option<PlannedFootsteps<'_>> {
+        let (plan, count) = &self.planned;
+        Some(PlannedFootsteps {
+            plan: plan.as_ref()?.as_ref().map_err(|none| *none),
+            ground: self.ground.map(),
+            times: self.layer.times(),
+            count: *count,
+        })
     }
 }

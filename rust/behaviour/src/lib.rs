@@ -11,7 +11,9 @@ mod walking;
 
 pub use climbing::{Pace, StairClimbing, StairClimbingConfig};
 pub use command::{Arms, Command, Footstep, Gaze, Misstep, Motion, Stepping, Velocity};
-pub use decision::{Behaviour, BehaviourError, Decision, Outcome, Situation, SoleAt};
+pub use decision::{
+    Behaviour, BehaviourError, Decision, Outcome, PlannedFootsteps, Situation, SoleAt,
+};
 pub use footsteps::{Footsteps, SteppingConfig};
 pub use part::{BehaviourNeeds, BehaviourPart};
 pub use planning::footsteps::StepManner;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use behaviour::{Behaviour, Decision, Situation, SoleAt};
+use behaviour::{Behaviour, Decision, PlannedFootsteps, Situation, SoleAt};
 use geometry::{Map, Odometry, PlanarPose, Pose, Robot};
 use localization::{Estimate, Localizer};
 use mapping::{FeltConfig, FloorView, Overlay};
@@ -259,6 +259,11 @@ impl Pilot {
         self.replans += u64::from(plan.replanned && self.plan.is_some());
         self.plan = Some(plan);
         Ok(())
+    }
+
+    /// The footsteps that the behaviour planned last, to look at.
+    pub fn planned_footsteps(&self) -> Option<PlannedFootsteps<'_>> {
+        self.behaviour.planned_footsteps()
     }
 
     /// Via points passed so far.

@@ -4,8 +4,10 @@
 //! What a step costs is the time that it takes. The search is led by a field over coarse cells that is rooted at the goal.
 
 mod config;
+mod exits;
 mod field_steps;
 mod goal_field;
+mod lattice_tables;
 mod layer;
 mod limits;
 mod plan;
@@ -17,8 +19,8 @@ mod tests;
 mod unseen;
 
 pub use config::FootstepsConfig;
-pub use layer::{FootstepLayer, FootstepQuestion};
+pub use layer::{FootstepLayer, FootstepQuestion, PlanTimes};
 pub use limits::StepLimits;
-pub use plan::{FootstepPlan, NoFootsteps, PlannedFootstep, StepManner};
+pub use plan::{FootstepPlan, NoFootsteps, PlannedFootstep, StepCost, StepManner};
 pub use terrain::footholds::SoleSize;
-pub use unseen::Unseen;
+pub use unseen::{Blurred, Unseen};

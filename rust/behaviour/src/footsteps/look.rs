@@ -2,7 +2,7 @@
 
 use planning::footsteps::{FootstepPlan, NoFootsteps};
 
-use super::route::told;
+use super::route::{CostToGo, Since, told};
 use super::{Footsteps, State};
 use crate::Motion;
 use crate::machine::Tick;
@@ -52,7 +52,9 @@ impl Footsteps {
         let feet = Self::soles(tick);
         self.read_ground(tick, &feet, Self::sole_heights_m(tick));
         match self.plan_from(tick, feet, None) {
-            Ok(plan) if !plan.steps.is_empty() && self.gets_on(&plan) => self.take(tick, &plan),
+            Ok(plan) if !plan.steps.is_empty() && self.gets_on(Since::Look, &plan) => {
+                self.take(tick, &plan);
+            }
             Ok(FootstepPlan {
                 exit_m: None,
                 steps,
@@ -76,13 +78,14 @@ impl Footsteps {
         let holds = plan.steps.iter().take(self.config.run).map(told);
         self.stepper.start(holds.collect(), &tick.pose, ground_m);
         self.planned_at = 0;
+        self.to_go[Since::Step as usize] = CostToGo::default();
         self.enter(State::Step);
     }
 
     /// Whether a plan tells that the robot gets on: else it has been idle.
-    pub(super) fn gets_on(&mut self, plan: &FootstepPlan) -> bool {
+    pub(super) fn gets_on(&mut self, since: Since, plan: &FootstepPlan) -> bool {
         let (by_s, most) = (self.layer.limits().walked_s, self.config.longer);
-        let gets_on = self.to_go.gets_on(plan.whole_s, by_s, most);
+        let gets_on = self.to_go[since as usize].gets_on(plan.whole_s, by_s, most);
         if gets_on {
             self.looks = 0;
             self.machine.gets_on();

@@ -2,7 +2,9 @@
 
 use geometry::{Cell, CellArea, Goal, PlanarPose};
 use mapping::HeightMap;
-use planning::footsteps::{FootstepPlan, FootstepQuestion, NoFootsteps, PlannedFootstep, Unseen};
+use planning::footsteps::{
+    Blurred, FootstepPlan, FootstepQuestion, NoFootsteps, PlannedFootstep, Unseen,
+};
 use robot::Side;
 use terrain::ground_map::SoleOnGround;
 
@@ -145,10 +147,11 @@ impl Footsteps {
             stop_before_m: self.config.look_from * nearer,
             faces_rad: self.config.faces,
         };
-        let question = FootstepQuestion {
+        let mut question = FootstepQuestion {
             feet,
             first,
             unseen,
+            blurred: Blurred::Crossed,
         };
         let goal = tick.situation.goal;
         // At its rim it would not be sure to have arrived.
@@ -156,7 +159,14 @@ impl Footsteps {
             radius_m: self.walking.config().arrive_share * goal.radius_m,
             ..*goal
         };
-        self.layer.plan_over(self.ground.map(), &question, &inside)
+        let mut planned = self.layer.plan_over(self.ground.map(), &question, &inside);
+        if planned.is_err() {
+            // Where edges are known better once they were looked at from near by, more steps may be possible.
+            question.blurred = Blurred::Unseen;
+            planned = self.layer.plan_over(self.ground.map(), &question, &inside);
+        }
+        self.planned = (Some(planned.clone()), self.planned.1 + 1);
+        planned
     }
 
     /// Height of the ground under a foot, m.
@@ -165,6 +175,15 @@ impl Footsteps {
         let cell = map.lattice.cell_at(foot.x_m, foot.y_m);
         map.height_m(cell).map(f64::from)
     }
+}
+
+/// Since when a plan may tell that the robot got on: as it stands and looks, steps that were planned anew on the way count as not taken yet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Since {
+    /// Since the last plan of a robot that stood.
+    Look = 0,
+    /// Since the last plan of a robot that stepped.
+    Step = 1,
 }
 
 /// How far the robot has come, by what its plans cost.

@@ -4,7 +4,7 @@ use geometry::PlanarPose;
 use planning::footsteps::{FootstepPlan, StepManner};
 
 use super::Footsteps;
-use super::route::{after, told};
+use super::route::{Since, after, told};
 use crate::climbing::stepper::Stepped;
 use crate::machine::Tick;
 use crate::{Footstep, Misstep, Motion};
@@ -46,7 +46,7 @@ impl Footsteps {
                 holds.extend(self.closing(&under_way));
             }
             Ok(plan) => {
-                let _ = self.gets_on(&plan);
+                let _ = self.gets_on(Since::Step, &plan);
                 let next = plan.steps.iter().take(self.config.run).map(told);
                 holds.extend(next.map(|hold| Footstep {
                     pose: told_from_map.compose(&hold.pose),

@@ -1,6 +1,6 @@
 //! How footsteps are searched for.
 
-use settings::{POSITIVE, above_to, at_least, settings, within};
+use settings::{POSITIVE, SHARE, above_to, at_least, settings, within};
 use terrain::footholds::FootholdConfig;
 use terrain::ground_map::GroundMapConfig;
 
@@ -23,6 +23,8 @@ settings! {
         turn_cost: f64 = 0.1, "s/rad", within(0.0, 100.0);
         /// Ground whose height differs by no more from that of the standing foot is walked on; other heights take careful steps.
         walk_height: f64 = 0.006, "m", within(0.0, 1.0);
+        /// Of a walked step both soles bear at least in this part: where less does, the weight is shifted with care.
+        walk_bearing: f64 = 0.95, "1", SHARE;
         /// A careful step goes no higher and no lower than what the legs do, less this: heights are known to so much.
         height_margin: f64 = 0.003, "m", within(0.0, 1.0);
         /// Of the height to which a foot is lifted over the higher end of its step, so much is kept from what it goes over.
@@ -32,6 +34,8 @@ settings! {
         /// So many times as dear is a way in that field over ground that carries no sole: edges, and what is narrow. At 1 nothing in the field
         /// is too dear, and the best plan takes seconds.
         poor_cost: f64 = 3.0, "1", at_least(1.0);
+        /// Rounds in which levels that are guessed where nothing was seen are evened out: where two guesses meet, so many cells to both sides.
+        guess_rounds: usize = 8, "1", within(0.0, 1000.0);
         /// So many times as dear is a way in that field over ground that was not seen, where a plan may lead there.
         unseen_cost: f64 = 2.0, "1", at_least(1.0);
         /// The first plan costs no more than so many times the cheapest, as far as the field is right.
@@ -40,8 +44,10 @@ settings! {
         epsilon_step: f64 = 1.0, "1", POSITIVE;
         /// Places of a foot that are expanded before the best plan so far is taken.
         expansions: usize = 10_000, "1", at_least(1.0);
+        /// Where no more places of a foot than these were reached and no plan was found, steps are looked at that are twice as fine.
+        cornered: usize = 300, "1", within(0.0, 1e9);
         /// Places of a foot that are expanded before the search for a first plan is given up.
-        most_expansions: usize = 200_000, "1", at_least(1.0);
+        most_expansions: usize = 30_000, "1", at_least(1.0);
         /// How the ground around the robot is read.
         ground: GroundMapConfig;
         /// What a sole needs.

@@ -11,6 +11,9 @@ pub(super) struct Prices {
     walk_m: f32,
     /// Beyond this, m, there is no step.
     rise_m: f32,
+    /// Nor beyond this, m, where one of both was not seen: stairs there are no steeper than the highest step by the shortest tread, and one
+    /// unseen cell may hide one step.
+    unseen_rise_m: f32,
     /// What a metre of climbing costs beside the way, s.
     climb_s: f32,
     /// So many times as dear is a way over what carries no sole.
@@ -23,11 +26,13 @@ impl Prices {
     pub(super) fn of(config: &FootstepsConfig, limits: &StepLimits, cell_m: f64) -> Self {
         let straight_s = cell_m / limits.speed_mps();
         let rise_m = limits.careful_rise_m;
+        let shortest_tread_m = config.foothold.least_bearing * limits.sole.length_m;
         let more_s = (limits.careful_s(0.0, rise_m) - limits.walked_s).max(0.0);
         Self {
             way_s: [straight_s, std::f64::consts::SQRT_2 * straight_s].map(|cost_s| cost_s as f32),
             walk_m: config.walk_height as f32,
             rise_m: rise_m as f32,
+            unseen_rise_m: (rise_m * (cell_m / shortest_tread_m).max(0.5)) as f32,
             climb_s: (more_s / rise_m) as f32,
             poor: config.poor_cost as f32,
             unseen: config.unseen_cost as f32,
@@ -63,7 +68,12 @@ pub(super) fn steps<'a>(
             (false, false) => prices.poor,
         };
         let way_s = prices.way_s[diagonal] * times;
+        let most_m = if exits[to] || exits[from as usize] {
+            prices.unseen_rise_m
+        } else {
+            prices.rise_m
+        };
         // What has no level has no rise.
-        (rise_m <= prices.rise_m).then_some((to as u32, way_s + climb_s))
+        (rise_m <= most_m).then_some((to as u32, way_s + climb_s))
     })
 }

@@ -7,7 +7,7 @@ use terrain::footholds::HighBlocks;
 use super::config::FootstepsConfig;
 use super::field_steps::{Prices, steps};
 use super::limits::StepLimits;
-use super::unseen::{Unseen, guess_levels};
+use super::unseen::{Blurred, Unseen, guess_levels, smooth_levels};
 
 /// A field that is rooted at the goal.
 #[derive(Debug, Clone, Default)]
@@ -37,14 +37,20 @@ impl GoalField {
         (map, blocks): (&HeightMap, &HighBlocks),
         (config, limits): (&FootstepsConfig, &StepLimits),
         (start, goal): (&PlanarPose, &Goal),
-        unseen: Unseen,
+        (unseen, blurred): (Unseen, Blurred),
     ) -> bool {
-        self.read_levels((map, blocks), config, limits);
+        self.read_levels((map, blocks, blurred), config, limits);
         self.exits.clear();
         self.exits
             .extend(self.levels_m.iter().map(|level_m| level_m.is_nan()));
         if unseen != Unseen::Closed {
             guess_levels(&mut self.levels_m, self.cols);
+            smooth_levels(
+                &mut self.levels_m,
+                &self.exits,
+                self.cols,
+                config.guess_rounds,
+            );
         }
         self.speed_mps = limits.speed_mps();
         self.costs_s.clear();
@@ -156,7 +162,7 @@ impl GoalField {
 
     fn read_levels(
         &mut self,
-        (map, blocks): (&HeightMap, &HighBlocks),
+        (map, blocks, blurred): (&HeightMap, &HighBlocks, Blurred),
         config: &FootstepsConfig,
         limits: &StepLimits,
     ) {
@@ -172,7 +178,7 @@ impl GoalField {
         self.carries.clear();
         for row in 0..self.rows {
             for col in 0..self.cols {
-                let level_m = level_of(map, Cell::new(col * side, row * side), side);
+                let level_m = level_of((map, blurred), Cell::new(col * side, row * side), side);
                 let [x_m, y_m] = self.lattice.center_of(Cell::new(col, row));
                 let body_m = level_m + limits.body_from_m as f32;
                 let no_room = level_m <= HeightMap::BOTTOMLESS_M
@@ -222,9 +228,10 @@ impl GoalField {
 }
 
 /// Height of the middle of a coarse cell, m; where that was not seen, the mean of what was.
-fn level_of(map: &HeightMap, first: Cell, side: i32) -> f32 {
+fn level_of((map, blurred): (&HeightMap, Blurred), first: Cell, side: i32) -> f32 {
     let middle = Cell::new(first.col + side / 2, first.row + side / 2);
-    map.height_m(middle).unwrap_or_else(|| {
+    let about_m = || (blurred == Blurred::Crossed).then(|| map.blurred_m(middle))?;
+    map.height_m(middle).or_else(about_m).unwrap_or_else(|| {
         let area = CellArea {
             min: first,
             max: Cell::new(first.col + side - 1, first.row + side - 1),

@@ -1,19 +1,21 @@
 //! The layer of footsteps: from a height map, both feet and a goal to steps.
 
+use std::time::Instant;
+
 use geometry::{Goal, PlanarPose};
 use mapping::HeightMap;
 use robot::Side;
 use settings::{ConfigError, Table};
-use terrain::footholds::{Foothold, Footholds, HighBlocks};
+use terrain::footholds::HighBlocks;
 
 use super::config::FootstepsConfig;
 use super::goal_field::GoalField;
+use super::lattice_tables::{FINENESSES, LatticeTables, stand};
 use super::limits::StepLimits;
 use super::plan::{FootstepPlan, NoFootsteps, PlannedFootstep};
 use super::space::{FootstepSpace, START};
 use super::spots::{Spots, StandingFoot};
-use super::step_table::StepTable;
-use super::unseen::Unseen;
+use super::unseen::{Blurred, Unseen};
 use crate::search::ara_star::{AraStar, SearchProgress};
 
 /// Plans footsteps for one robot. Its arrays are used again.
@@ -25,6 +27,18 @@ pub struct FootstepLayer {
     field: GoalField,
     spots: Spots,
     tables: Option<LatticeTables>,
+    times: PlanTimes,
+    /// When it began to plan last.
+    began: Instant,
+}
+
+/// How long planning took. Nothing that decides reads it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlanTimes {
+    /// Until a first plan was found, s; NaN where none was.
+    pub first_s: f64,
+    /// Until the best was, or none, s.
+    pub best_s: f64,
 }
 
 /// Where a plan begins, and what it makes of what was not seen.
@@ -36,29 +50,8 @@ pub struct FootstepQuestion {
     pub first: Option<Side>,
     /// What is made of ground that was not seen.
     pub unseen: Unseen,
-}
-
-/// What depends on the size of the cells alone: steps between them, and the cells under a sole.
-#[derive(Debug, Clone)]
-struct LatticeTables {
-    cell_m: f64,
-    steps: StepTable,
-    footholds: Footholds,
-}
-
-impl LatticeTables {
-    fn new(config: &FootstepsConfig, limits: &StepLimits, cell_m: f64) -> Self {
-        let steps = StepTable::new(config, limits, cell_m);
-        let foothold = config.foothold.clone();
-        // Feet stand in the middles of cells.
-        let on = ([0.0; 2], cell_m);
-        let footholds = Footholds::new(foothold, limits.sole, steps.yaws_rad(), on);
-        Self {
-            cell_m,
-            steps,
-            footholds,
-        }
-    }
+    /// What is made of ground of which it was not seen where levels meet.
+    pub blurred: Blurred,
 }
 
 impl FootstepLayer {
@@ -76,12 +69,22 @@ impl FootstepLayer {
             field: GoalField::default(),
             spots: Spots::default(),
             tables: None,
+            times: PlanTimes {
+                first_s: f64::NAN,
+                best_s: f64::NAN,
+            },
+            began: Instant::now(),
         })
     }
 
     /// What the robot's steps are limited by.
     pub const fn limits(&self) -> &StepLimits {
         &self.limits
+    }
+
+    /// How long it took to plan last.
+    pub const fn times(&self) -> PlanTimes {
+        self.times
     }
 
     /// Ground whose height differs by no more is walked on, m.
@@ -113,6 +116,7 @@ impl FootstepLayer {
             feet,
             first: None,
             unseen: Unseen::Closed,
+            blurred: Blurred::Crossed,
         };
         self.plan_over(map, &question, goal)
     }
@@ -130,64 +134,84 @@ impl FootstepLayer {
     ) -> Result<FootstepPlan, NoFootsteps> {
         let &FootstepQuestion {
             feet,
-            first,
             unseen,
+            blurred,
+            ..
         } = question;
         self.refuse_what_is_no_question(map, &feet, goal)?;
+        self.began = Instant::now();
         let blocks = HighBlocks::new(map);
         let settings = (&self.config, &self.limits);
         let middle = self.limits.middle_of(&feet[0], Side::Left);
         if !self
             .field
-            .find((map, &blocks), settings, (&middle, goal), unseen)
+            .find((map, &blocks), settings, (&middle, goal), (unseen, blurred))
         {
             return Err(NoFootsteps::UnseenGoal);
         }
-        let Self {
-            config,
-            limits,
-            search,
-            field,
-            spots,
-            tables,
-        } = self;
+        let leads_on = self.field.remaining_s(middle.x_m, middle.y_m).is_finite();
         let cell_m = map.lattice.cell_m;
-        let tables = match tables {
-            Some(tables) if tables.cell_m == cell_m => tables,
-            _ => tables.insert(LatticeTables::new(config, limits, cell_m)),
-        };
-        let start = stand(map, tables, &feet)?;
-        spots.clear();
-        let mut space = FootstepSpace {
-            map,
-            blocks: &blocks,
-            config,
-            limits,
-            field,
-            goal: *goal,
-            unseen,
-            first,
-            table: &mut tables.steps,
-            footholds: &mut tables.footholds,
-            start,
-            spots,
-            expanded: 0,
-        };
-        let mut best: Option<FootstepPlan> = None;
-        let found = |space: &mut FootstepSpace<'_>, progress: &SearchProgress| {
-            if let Some(steps) = space.steps_to(progress.last) {
-                take_better(&mut best, (steps, space.exit(progress.last)), progress);
-            }
-        };
-        let leads_on = field.remaining_s(middle.x_m, middle.y_m).is_finite();
-        if leads_on {
-            let _ = search.run_in(&mut space, START, &config.search(), found);
+        if (self.tables.as_ref()).is_none_or(|tables| tables.cell_m != cell_m) {
+            self.tables = Some(LatticeTables::new(&self.config, &self.limits, cell_m));
         }
-        let expanded = space.expanded;
+        let tables = self.tables.as_mut();
+        let start = tables.map(|tables| stand(map, tables, &feet)).transpose()?;
+        self.times.first_s = f64::NAN;
+        let (mut best, mut expanded) = (None, 0);
+        for fineness in 0..FINENESSES {
+            // Who is cornered looks at more steps.
+            if leads_on && best.is_none() && expanded <= self.config.cornered {
+                let from = (start, question);
+                (best, expanded) = self.search_steps((map, &blocks), from, goal, fineness);
+            }
+        }
+        self.times.best_s = self.began.elapsed().as_secs_f64();
         match best {
             Some(plan) => Ok(FootstepPlan { expanded, ..plan }),
             None => Err(self.why_none(leads_on, expanded)),
         }
+    }
+
+    /// Searches among steps that are so fine; the best plan, if there is any, and how many places of a foot were expanded.
+    fn search_steps(
+        &mut self,
+        (map, blocks): (&HeightMap, &HighBlocks),
+        (start, question): (Option<[StandingFoot; 2]>, &FootstepQuestion),
+        goal: &Goal,
+        fineness: usize,
+    ) -> (Option<FootstepPlan>, usize) {
+        let (Some(tables), Some(start)) = (&mut self.tables, start) else {
+            return (None, 0);
+        };
+        self.spots.clear();
+        let mut space = FootstepSpace {
+            map,
+            blocks,
+            config: &self.config,
+            limits: &self.limits,
+            field: &self.field,
+            goal: *goal,
+            unseen: question.unseen,
+            first: question.first,
+            table: &mut tables.steps[fineness],
+            footholds: &mut tables.footholds,
+            start,
+            spots: &mut self.spots,
+            expanded: 0,
+        };
+        let mut best: Option<FootstepPlan> = None;
+        let (times, began) = (&mut self.times, self.began);
+        let found = |space: &mut FootstepSpace<'_>, progress: &SearchProgress| {
+            if times.first_s.is_nan() {
+                times.first_s = began.elapsed().as_secs_f64();
+            }
+            if let Some(steps) = space.steps_to(progress.last) {
+                take_better(&mut best, (steps, space.exit(progress.last)), progress);
+            }
+        };
+        let _ = (self.search).run_in(&mut space, START, &self.config.search(), found);
+        let expanded = space.expanded;
+        (best, expanded)
     }
 
     const fn why_none(&self, leads_on: bool, expanded: usize) -> NoFootsteps {
@@ -230,43 +254,13 @@ impl FootstepLayer {
     }
 }
 
-/// How both feet stand where they do, whatever the map says of that: there they are.
-fn stand(
-    map: &HeightMap,
-    tables: &mut LatticeTables,
-    feet: &[PlanarPose; 2],
-) -> Result<[StandingFoot; 2], NoFootsteps> {
-    let mut foot = |side: Side| {
-        let pose = feet[side.index()];
-        let cell = map.lattice.cell_at(pose.x_m, pose.y_m);
-        let heading = tables.steps.nearest(pose.yaw_rad);
-        let read = tables.footholds.read(map, cell, heading).ok();
-        let on_height = |height_m: f32| Foothold {
-            height_m,
-            slope: [0.0; 2],
-            bearing_m: [0.0; 2],
-            bearing_share: 0.0,
-        };
-        let foothold = read.or_else(|| map.height_m(cell).map(on_height));
-        let foothold = foothold.ok_or(NoFootsteps::UnseenStart(side))?;
-        Ok(StandingFoot {
-            side,
-            pose,
-            cell,
-            heading,
-            foothold,
-        })
-    };
-    Ok([foot(Side::Left)?, foot(Side::Right)?])
-}
-
 /// Keeps the better plan of two, and what the first one cost.
 fn take_better(
     best: &mut Option<FootstepPlan>,
     (steps, exit_m): (Vec<PlannedFootstep>, Option<[f64; 2]>),
     progress: &SearchProgress,
 ) {
-    let cost_s = steps.iter().map(|step| step.cost_s).sum();
+    let cost_s = steps.iter().map(|step| step.cost.total_s()).sum();
     let first = best
         .as_ref()
         .map_or((cost_s, progress.expanded), |plan| plan.first);

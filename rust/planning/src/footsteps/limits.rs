@@ -19,12 +19,16 @@ pub struct StepLimits {
     pub max_backward_m: f64,
     /// Largest extra distance between the feet in a side step, m.
     pub max_sideways_m: f64,
+    /// How far a walked step goes both forward and to the side, as the sum of its shares of both.
+    pub walked_both: f64,
     /// Largest turn of one foot against the other, rad.
     pub max_turn_rad: f64,
     /// Longest careful step forward or backward, m.
     pub careful_forward_m: f64,
     /// Largest extra distance between the feet in a careful step, m.
     pub careful_sideways_m: f64,
+    /// Largest extra distance between the feet in the highest careful step down, m.
+    pub careful_sideways_down_m: f64,
     /// Highest careful step up or down, m.
     pub careful_rise_m: f64,
     /// Most that the foot of a careful step is raised or lowered from where it stood, m.
@@ -58,6 +62,14 @@ impl StepLimits {
         let lift_m = rise_m.abs() + self.clearance_m[1];
         let air_s = (way_m / self.careful_speed_mps).max(lift_m / self.careful_lift_mps);
         air_s.max(self.careful_air_s) + self.careful_ground_s
+    }
+
+    /// Whether a foot goes so far, m, in one step of a walk: from as far behind the other one as it then is ahead of it, from one side step to none,
+    /// and turning with the robot's middle.
+    pub fn walks_so_far(&self, way_m: f64) -> bool {
+        let aside_m = self.max_sideways_m.min(self.careful_sideways_m);
+        let ahead_m = 2.0 * self.max_forward_m + 0.5 * self.stance_width_m * self.max_turn_rad;
+        way_m < geometry::hypot(ahead_m, aside_m) + ROUNDING
     }
 
     /// Where the foot of one side is beside the other one, at the same heading.
@@ -123,12 +135,18 @@ impl StepLimits {
 
 impl StepLimits {
     /// Whether a step so far forward and so far across, m, is one of a walk. Out of a stance that is wider than a careful step's the weight would not
-    /// get over one foot in time for such a step.
+    /// get over one foot in time for such a step, nor out of one that is both wide and long.
     fn is_walked(&self, x_m: f64, across_m: f64) -> bool {
-        let wider_m = self.max_sideways_m.min(self.careful_sideways_m);
-        x_m > -self.max_backward_m - ROUNDING
-            && x_m < self.max_forward_m + ROUNDING
-            && across_m < self.stance_width_m + wider_m + ROUNDING
+        let most_wider_m = self.max_sideways_m.min(self.careful_sideways_m);
+        let wider_m = (across_m - self.stance_width_m).max(0.0);
+        let farthest_m = if x_m < 0.0 {
+            self.max_backward_m
+        } else {
+            self.max_forward_m
+        };
+        let shares = [x_m.abs() / farthest_m, wider_m / most_wider_m];
+        let within = shares.iter().all(|&share| share < 1.0 + ROUNDING);
+        within && shares[0] + shares[1] < self.walked_both + ROUNDING
     }
 
     /// How far the legs are stretched by a careful step so far forward and so far across, m, as a share of what they can: both at once they do as
@@ -139,6 +157,15 @@ impl StepLimits {
             x_m / self.careful_forward_m,
             wider_m / self.careful_sideways_m,
         )
+    }
+
+    /// Whether a careful step seen from the foot that stands is not too far for one that goes down so far, m.
+    pub(super) fn reaches_down(&self, step: &PlanarPose, side: Side, down_m: f64) -> bool {
+        let share = (down_m / self.careful_rise_m).clamp(0.0, 1.0);
+        let sideways_m = self.careful_sideways_m
+            + share * (self.careful_sideways_down_m - self.careful_sideways_m);
+        let wider_m = (side.sign() * step.y_m - self.stance_width_m).max(0.0);
+        geometry::hypot(step.x_m / self.careful_forward_m, wider_m / sideways_m) < 1.0 + ROUNDING
     }
 
     /// The farthest place within reach towards one that may be beyond: forward and across, m.

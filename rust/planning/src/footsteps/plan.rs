@@ -35,8 +35,26 @@ pub struct PlannedFootstep {
     pub foothold: Foothold,
     /// How the step is taken.
     pub manner: StepManner,
-    /// What it costs, s.
-    pub cost_s: f64,
+    /// What it costs.
+    pub cost: StepCost,
+}
+
+/// What a step costs, s, by what for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepCost {
+    /// The time that it takes.
+    pub time_s: f64,
+    /// That the sole bears only in part.
+    pub partial_s: f64,
+    /// That the foot turns.
+    pub turn_s: f64,
+}
+
+impl StepCost {
+    /// All of it, s.
+    pub fn total_s(&self) -> f64 {
+        self.time_s + self.partial_s + self.turn_s
+    }
 }
 
 /// A way, step by step.

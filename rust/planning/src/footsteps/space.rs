@@ -8,7 +8,7 @@ use terrain::footholds::{Footholds, HighBlocks};
 use super::config::FootstepsConfig;
 use super::goal_field::GoalField;
 use super::limits::{StepLimits, StepReach};
-use super::plan::{PlannedFootstep, StepManner};
+use super::plan::{PlannedFootstep, StepCost, StepManner};
 use super::spots::{FootSpot, Spots, StandingFoot};
 use super::step_table::{LatticeStep, StepTable};
 use super::unseen::Unseen;
@@ -39,7 +39,7 @@ pub(super) struct FootstepSpace<'a> {
 
 impl FootstepSpace<'_> {
     /// The foot that stands at a node that is not the start.
-    fn foot_at(&self, node: u32) -> Option<StandingFoot> {
+    pub(super) fn foot_at(&self, node: u32) -> Option<StandingFoot> {
         let index = node.checked_sub(START + 1)?;
         let spot = self.spots.all[index as usize / 2];
         let side = Side::BOTH[index as usize % 2];
@@ -97,7 +97,13 @@ impl FootstepSpace<'_> {
         {
             return None;
         }
-        let level = rise_m.abs().max(lift_m.abs()) <= config.walk_height;
+        let way_m = moving.pose.distance_m(&there.pose);
+        let whole =
+            |foot: &StandingFoot| f64::from(foot.foothold.bearing_share) >= config.walk_bearing;
+        let level = rise_m.abs().max(lift_m.abs()) <= config.walk_height
+            && limits.walks_so_far(way_m)
+            && whole(standing)
+            && whole(&there);
         let (manner, clearance_m) = match (level, reach) {
             (true, StepReach::Walking | StepReach::WalkingOnly) => {
                 (StepManner::Walked, limits.clearance_m[0])
@@ -105,6 +111,10 @@ impl FootstepSpace<'_> {
             (false, StepReach::WalkingOnly) => return None,
             (false, _) | (true, StepReach::Careful) => (StepManner::Careful, limits.clearance_m[1]),
         };
+        let seen = || standing.pose.relative(&there.pose);
+        if manner == StepManner::Careful && !limits.reaches_down(&seen(), there.side, -rise_m) {
+            return None;
+        }
         let lifted_m = height_m(&there).max(height_m(moving)) + clearance_m - config.way_margin;
         let seen = (self.map, self.blocks);
         let (from, to) = ((&moving.pose, moving.heading), (&there.pose, there.heading));
@@ -122,7 +132,7 @@ impl FootstepSpace<'_> {
         }
         let time_s = match manner {
             StepManner::Walked => limits.walked_s,
-            StepManner::Careful => limits.careful_s(moving.pose.distance_m(&there.pose), lift_m),
+            StepManner::Careful => limits.careful_s(way_m, lift_m),
         };
         let turn_rad = geometry::angle_between(standing.pose.yaw_rad, there.pose.yaw_rad).abs();
         let missing = 1.0 - f64::from(there.foothold.bearing_share);
@@ -132,7 +142,11 @@ impl FootstepSpace<'_> {
             pose: there.pose,
             foothold: there.foothold,
             manner,
-            cost_s: time_s + config.partial_cost * missing / most + config.turn_cost * turn_rad,
+            cost: StepCost {
+                time_s,
+                partial_s: config.partial_cost * missing / most,
+                turn_s: config.turn_cost * turn_rad,
+            },
         })
     }
 
@@ -159,7 +173,7 @@ impl FootstepSpace<'_> {
     ) {
         for &step in steps {
             if let Some((to, taken)) = self.along((&standing, &moving), step) {
-                reach(to, taken.cost_s);
+                reach(to, taken.cost.total_s());
             }
         }
     }
@@ -208,41 +222,10 @@ impl FootstepSpace<'_> {
         self.along((standing, moving), step).map(|(_, taken)| taken)
     }
 
-    fn is_at_goal(&self, foot: &StandingFoot) -> bool {
+    pub(super) fn is_at_goal(&self, foot: &StandingFoot) -> bool {
         let goal = &self.goal;
         let middle_m = self.table.middle_m(&foot.pose, foot.heading, foot.side);
         geometry::distance_m(middle_m, [goal.x_m, goal.y_m]) <= goal.radius_m
-    }
-}
-
-impl FootstepSpace<'_> {
-    /// Where a plan that ends at this node leaves what is known, m; `None` where it ends at the goal.
-    pub(super) fn exit(&self, node: u32) -> Option<[f64; 2]> {
-        let foot = self.foot_at(node).unwrap_or(self.start[0]);
-        (!self.is_at_goal(&foot)).then(|| self.exit_from(&foot))?
-    }
-
-    fn exit_from(&self, foot: &StandingFoot) -> Option<[f64; 2]> {
-        let Unseen::Priced {
-            stop_before_m,
-            faces_rad,
-        } = self.unseen
-        else {
-            return None;
-        };
-        let [x_m, y_m] = self.table.middle_m(&foot.pose, foot.heading, foot.side);
-        let exit_m = self.field.exit_within(x_m, y_m, stop_before_m)?;
-        let bearing_rad = libm::atan2(exit_m[1] - y_m, exit_m[0] - x_m);
-        let turn_rad = geometry::wrap_angle(bearing_rad - foot.pose.yaw_rad);
-        let near = geometry::distance_m(exit_m, [x_m, y_m]) < self.limits.sole.length_m;
-        (near || turn_rad.abs() <= faces_rad).then_some(exit_m)
-    }
-
-    /// What the way costs on from a foot before ground that was not seen, s.
-    fn on_from_s(&self, foot: &StandingFoot) -> Option<f64> {
-        let [x_m, y_m] = self.table.middle_m(&foot.pose, foot.heading, foot.side);
-        self.exit_from(foot)
-            .map(|_| self.field.remaining_s(x_m, y_m))
     }
 }
 
@@ -289,7 +272,8 @@ impl Space for FootstepSpace<'_> {
             return self.on_from_s(&standing);
         }
         let moving = self.foot(parent?, standing.side.other())?;
-        self.closing(&standing, &moving).map(|step| step.cost_s)
+        self.closing(&standing, &moving)
+            .map(|step| step.cost.total_s())
     }
 
     fn remaining(&self, node: u32) -> f64 {

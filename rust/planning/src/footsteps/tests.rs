@@ -7,6 +7,7 @@ use mapping::HeightMap;
 use robot::Side;
 use terrain::footholds::SoleSize;
 
+use super::limits::StepReach;
 use super::*;
 
 /// As of the robot `qrio`.
@@ -22,7 +23,9 @@ const LIMITS: StepLimits = StepLimits {
     max_sideways_m: 0.1,
     max_turn_rad: 0.3,
     careful_forward_m: 0.135,
+    walked_both: 1.5,
     careful_sideways_m: 0.05,
+    careful_sideways_down_m: 0.015,
     careful_rise_m: 0.055,
     careful_lift_m: 0.11,
     clearance_m: [0.02, 0.02],
@@ -101,8 +104,16 @@ fn assert_steps_are_possible(
             "{step:?}"
         );
         assert!((there_m - height_m(&step.pose)).abs() < 0.0061, "{step:?}");
+        if step.manner == StepManner::Walked {
+            let (moving, _) = feet[step.side.index()];
+            assert!(
+                LIMITS.walks_so_far(moving.distance_m(&step.pose)),
+                "{step:?}"
+            );
+            assert!(step.foothold.bearing_share > 0.94, "{step:?}");
+        }
         feet[step.side.index()] = (step.pose, there_m);
-        cost_s += step.cost_s;
+        cost_s += step.cost.total_s();
     }
     assert!((cost_s - plan.cost_s).abs() < 1e-9);
     assert!(plan.cost_s <= plan.first.0);
@@ -122,12 +133,8 @@ fn flight(x_m: f64, first_m: f64, (rise_m, tread_m, count): (f64, f64, i32)) -> 
 fn over_a_floor_it_walks_nearly_as_fast_as_legs_go() {
     let floor = map(|_, _| 0.0);
     let found = plan(&floor, PlanarPose::default(), goal(2.0, 0.3)).unwrap();
-    assert!(
-        found
-            .steps
-            .iter()
-            .all(|step| step.manner == StepManner::Walked)
-    );
+    let careful = |step: &&PlannedFootstep| step.manner == StepManner::Careful;
+    assert_eq!(found.steps.iter().find(careful), None);
     let least_s = (2.02 - 0.08) / LIMITS.speed_mps();
     assert!(
         found.cost_s < 1.25 * least_s,
@@ -176,6 +183,70 @@ fn a_step_that_is_too_high_is_walked_round_or_refused_with_the_figure() {
     assert!(around.steps.iter().any(|step| step.pose.y_m < -0.45));
     let none = plan(&wall(-2.0), PlanarPose::default(), goal(1.6, 0.0));
     assert_eq!(none, Err(NoFootsteps::NoWay { rise_m: 0.055 }));
+}
+
+#[test]
+fn who_walks_steps_far_or_to_the_side_and_who_steps_down_far_keeps_the_feet_together() {
+    let reach = |x_m: f64, wider_m: f64| {
+        let step = PlanarPose::new(x_m, LIMITS.stance_width_m + wider_m, 0.0);
+        (
+            LIMITS.reach(&step, Side::Left),
+            LIMITS.reaches_down(&step, Side::Left, 0.05),
+        )
+    };
+    let wide_m = LIMITS.careful_sideways_m.min(LIMITS.max_sideways_m);
+    let ahead_m = LIMITS.max_forward_m;
+    assert!(matches!(reach(ahead_m, 0.0).0, Some(StepReach::Walking)));
+    assert!(matches!(reach(0.0, wide_m).0, Some(StepReach::Walking)));
+    let both = reach(0.8 * ahead_m, 0.8 * wide_m).0;
+    assert!(!matches!(
+        both,
+        Some(StepReach::Walking | StepReach::WalkingOnly)
+    ));
+    assert!(reach(0.9 * LIMITS.careful_forward_m, 0.0).1);
+    assert!(
+        !reach(
+            0.9 * LIMITS.careful_forward_m,
+            0.5 * LIMITS.careful_sideways_m
+        )
+        .1
+    );
+}
+
+#[test]
+fn where_levels_meet_nobody_knows_just_where_a_foot_goes_over_or_the_robot_looks_first() {
+    let mut step = map(|x_m, _| if x_m < 0.5 { 0.0 } else { 0.03 });
+    for cell in step.heights_m().area().cells() {
+        let [x_m, _] = step.lattice.center_of(cell);
+        if (x_m - 0.5).abs() < 0.02 {
+            step.set_blurred(cell, if x_m < 0.5 { 0.0 } else { 0.03 });
+        }
+    }
+    let mut layer = layer();
+    let unseen = Unseen::Priced {
+        stop_before_m: 0.2,
+        faces_rad: 0.8,
+    };
+    let mut ask = |blurred: Blurred| {
+        let question = FootstepQuestion {
+            feet: layer.feet_around(&PlanarPose::default()),
+            first: None,
+            unseen,
+            blurred,
+        };
+        layer.plan_over(&step, &question, &goal(1.2, 0.1)).unwrap()
+    };
+    let over = ask(Blurred::Crossed);
+    assert_eq!(over.exit_m, None);
+    let onto = over
+        .steps
+        .iter()
+        .filter(|step| step.foothold.height_m > 0.02);
+    assert!(onto.clone().count() > 0);
+    // No more than a quarter of a sole hangs over what is blurred.
+    assert!(onto.clone().all(|step| step.foothold.bearing_share >= 0.75));
+    let [x_m, _] = ask(Blurred::Unseen).exit_m.unwrap();
+    assert!((x_m - 0.5).abs() < 0.06, "{x_m}");
 }
 
 #[test]

@@ -18,6 +18,15 @@ pub enum Unseen {
     },
 }
 
+/// What is made of ground that was seen, but where levels meet, nobody knows just where: no sole stands there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Blurred {
+    /// The way may lead over it.
+    Crossed,
+    /// As if it had not been seen: it is looked at first.
+    Unseen,
+}
+
 /// Gives cells of which nothing is known, NaN, the level of the nearest that has one, the lowest of several: behind what stands there, more
 /// of that is expected, and behind floor, floor.
 pub(super) fn guess_levels(levels_m: &mut [f32], cols: i32) {
@@ -45,6 +54,39 @@ pub(super) fn guess_levels(levels_m: &mut [f32], cols: i32) {
     }
 }
 
+/// Lets what was guessed rise evenly from level to level: nobody knows where between them it does.
+pub(super) fn smooth_levels(levels_m: &mut [f32], guessed: &[bool], cols: i32, rounds: usize) {
+    let rows = (levels_m.len() as i32).checked_div(cols).unwrap_or(0);
+    let mean_m = |levels_m: &[f32], at: Cell| {
+        let beside = [[1, 0], [-1, 0], [0, 1], [0, -1]].map(|[right, up]| {
+            let cell = Cell::new(at.col + right, at.row + up);
+            let inside = (0..cols).contains(&cell.col) && (0..rows).contains(&cell.row);
+            inside.then(|| levels_m[(cell.row * cols + cell.col) as usize])
+        });
+        let finite = beside
+            .into_iter()
+            .flatten()
+            .filter(|level_m| level_m.is_finite());
+        let (count, sum_m) = finite.fold((0.0, 0.0), |(count, sum_m), level_m| {
+            (count + 1.0, sum_m + level_m)
+        });
+        (count > 0.0).then_some(sum_m / count)
+    };
+    let mut even_out = |node: usize| {
+        if guessed[node] && levels_m[node].is_finite() {
+            let at = Cell::new(node as i32 % cols, node as i32 / cols);
+            if let Some(mean_m) = mean_m(levels_m, at) {
+                levels_m[node] = mean_m;
+            }
+        }
+    };
+    let nodes = 0..guessed.len();
+    for _ in 0..rounds {
+        nodes.clone().for_each(&mut even_out);
+        nodes.clone().rev().for_each(&mut even_out);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -61,5 +103,19 @@ mod tests {
         guess_levels(&mut nothing, 2);
         assert!(nothing.iter().all(|level_m| level_m.is_nan()));
         guess_levels(&mut [], 0);
+    }
+
+    #[test]
+    fn what_was_guessed_rises_evenly_and_what_is_known_stays() {
+        let unseen = f32::NAN;
+        let mut levels_m = [0.0, unseen, unseen, unseen, unseen, unseen, 0.12];
+        let guessed = levels_m.map(f32::is_nan);
+        guess_levels(&mut levels_m, 7);
+        smooth_levels(&mut levels_m, &guessed, 7, 8);
+        assert_eq!((levels_m[0], levels_m[6]), (0.0, 0.12));
+        for pair in levels_m.windows(2) {
+            assert!((pair[1] - pair[0] - 0.02).abs() < 5e-3, "{levels_m:?}");
+        }
+        smooth_levels(&mut [], &[], 0, 8);
     }
 }
