@@ -20,6 +20,9 @@ LONGEST_FILE = 400
 SIMULATOR = {"simulated_body", "mujoco_step"}
 # Tested through what uses them, by the test named.
 TESTED_BY = {
+    "recording.sole_outlines": "test_map_picture.py",
+    "recording.stair_outlines": "test_map_picture.py",
+    "recording.step_shapes": "test_recording.py",
     "cli.verify": "test_difference.py",
     "progress": "test_cli.py",
     "scores": "test_runner.py",

@@ -8,12 +8,15 @@ from episode_builders import BOX, STEP, flight, grid, result, world
 from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 
+from treadwell.footstep_plan import FootstepPlan, PlannedFootstep
 from treadwell.judging.result import CollisionEntry
 from treadwell.map_memory import FLOOR, OBSTACLE
 from treadwell.poses import pose_matrix
 from treadwell.recording.map_picture import caption_of, draw_map
 from treadwell.recording.stair_memory import StairMemory
+from treadwell.recording.step_memory import StepMemory
 from treadwell.recording.trajectory import Trajectory
+from treadwell.trace import Sole
 
 LATER = """
 [[event]]
@@ -69,6 +72,36 @@ def test_obstacles_floors_and_the_unknown_are_to_be_seen(tmp_path: Path) -> None
     assert has(picture, (0.80, 0.80, 0.82)) > 10_000
     for colour in ("#7ff0ff", "#ffbe00", "#00b7ff", "#7d3cd7"):  # stairs, edges, climbed
         assert has(picture, to_rgb(colour)) > 50, colour
+
+
+def test_soles_are_drawn_where_they_were_planned_and_where_they_came_down(tmp_path: Path) -> None:
+    step = PlannedFootstep(
+        "left", 0.5, 0.04, 0.3, 0.03, (0.0, 0.0), (-0.05, 0.05), 0.8, "careful", 1.2, 0.1, 0.2
+    )
+    plan = FootstepPlan((step,), cost=1.5, whole_cost=4.0, expanded=7)
+    memory = StepMemory()
+    memory.plan(plan)
+    soles = (Sole(0.9, 0.2, 0.03, (1.0, 0.0)), Sole(0.9, -0.2, 0.03, (1.0, 0.0)))
+    for time, landed, left in ((1.0, 0, True), (1.5, 0, False), (2.0, 1, True)):
+        touch = (left, True)
+        memory.frame(plan, time, landed=landed, listed=True, soles=soles, touch=touch)
+    memory.frame(plan, 2.5, landed=1, listed=False, soles=soles, touch=(True, True))
+    assert (memory.landed, len(memory.planned), len(memory.taken)) == (1, 1, 1)
+    (entry,) = memory.plans
+    assert (entry.time, entry.steps, entry.careful_steps, entry.expanded) == (1.0, 1, 1, 7)
+    assert (entry.careful, entry.walked, entry.unseen) == (1.2, 0.0, 2.5)
+    made = world(STEP)
+    draw_map(
+        tmp_path / "map.png",
+        made.course,
+        caption_of(result(made.scenario)),
+        grid(),
+        way(0.0),
+        way(0.0),
+        climbs(),
+        (memory, (0.105, 0.075)),
+    )
+    assert has(pixels(tmp_path / "map.png"), to_rgb("#ff8c00")) > 20
 
 
 @pytest.mark.parametrize("outcome", ["error", "interrupted"])

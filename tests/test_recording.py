@@ -11,13 +11,14 @@ import pytest
 from episode_builders import BOX, STEP, World, entities, flight, qrio, trace, world
 
 from treadwell.errors import InputError, RecordingError
+from treadwell.footstep_plan import FootstepPlan, PlannedFootstep
 from treadwell.protocols import Footstep
 from treadwell.recording import map_shapes
 from treadwell.recording import recorder as recording
 from treadwell.recording.file import cut_to_whole_messages, whole_length
 from treadwell.recording.layout import CLIMB, PATH
 from treadwell.recording.recorder import NAME, Recorder
-from treadwell.trace import Sole, Trace
+from treadwell.trace import Sole, SteppingTrace, Trace
 
 FRAME = 80_000_000
 
@@ -79,6 +80,31 @@ def test_stairs_climbs_landings_and_missteps_are_in_the_recording(
         "/world/soles/planned",
         "/world/soles/landed",
         "/behaviour/misstep",
+    } <= entities(tmp_path / NAME)
+
+
+def test_planned_footsteps_are_drawn_with_the_ground_and_their_cost(
+    tmp_path: Path, made: World
+) -> None:
+    step = PlannedFootstep(
+        "left", 0.1, 0.04, 0.3, 0.03, (0.0, 0.0), (-0.05, 0.05), 0.8, "careful", 1.2, 0.1, 0.0
+    )
+    ground = np.full((40, 50), 0.0, np.float32)
+    ground[:, 30:] = np.nan
+    plan = FootstepPlan((step, step), cost=2.6, whole_cost=9.0)
+    writer = recorder(tmp_path, made)
+    writer.frame(trace(made, 0))
+    none = FootstepPlan((), "none")
+    for count, (found, way_out) in enumerate(((plan, (0.3, 0.2)), (none, None))):
+        seen = SteppingTrace(found, way_out, count + 1, (-0.2, -0.2), 0.01, ground)
+        writer.frame(trace(made, (1 + count) * FRAME, stepping=seen))
+    writer.close()
+    assert {
+        "/world/soles/plan",
+        "/map/ground",
+        "/map/ground/soles",
+        "/map/ground/exit",
+        "/footsteps/cost",
     } <= entities(tmp_path / NAME)
 
 

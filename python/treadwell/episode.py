@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
+from typing import Final
 
 from treadwell._core import Octree, Pilot
 from treadwell.core_settings import (
@@ -33,6 +34,9 @@ from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 from treadwell.senses.sensors import Sensors
 from treadwell.stage_times import StageTimes
+
+FOOTSTEP_STAGES: Final = ("footsteps_first", "footsteps_best")
+"""What is timed of a plan of footsteps: until a first one is found, and until the best is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +140,8 @@ class Episode:
         self.judge = Judge(self.course.model, self.course, scenario, self.robot)
         self.referee = Referee(self.judge, scenario.time_limit)
         self.verdict: Verdict | None = None
-        self.times = StageTimes(("physics", "depth"), Pilot.stages)
+        self.times = StageTimes(("physics", "depth", *FOOTSTEP_STAGES), Pilot.stages)
+        self._plans = 0
         brought = {slot: class_path(component) for slot, component in components.items()}
         given = user_components(scenario, dict(components), user_code=user_code)
         self.guards = guards(scenario, given, set(components))
@@ -169,6 +174,7 @@ class Episode:
             named = blamed(error, self.guards)
             raise named from named.__cause__
         times.add_row(self.pilot.timing)
+        self._time_footsteps()
         command = JointTargets(tick.positions, tick.velocities, tick.torques)
         outcome, reason, footsteps = tick.outcome, tick.reason, tick.footsteps
         if self.course.events:
@@ -191,6 +197,14 @@ class Episode:
             outcome,
             reason,
         )
+
+    def _time_footsteps(self) -> None:
+        """Note how long a plan of footsteps took, where there is a new one."""
+        planned = self.pilot.footstep_times
+        if planned is not None and planned[0] != self._plans:
+            self._plans = planned[0]
+            for stage, seconds in zip(FOOTSTEP_STAGES, planned[1:], strict=True):
+                self.times.add(stage, seconds)
 
     @property
     def seconds(self) -> dict[str, Sequence[float]]:

@@ -11,78 +11,19 @@
 
 import json
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from treadwell._core import FootstepLayer
 from treadwell.errors import InputError
+from treadwell.footstep_plan import FootstepPlan, PlannedFootstep, plan_of
 from treadwell.robot.load import load_robot
 
 __all__ = ["FootstepPlan", "PlannedFootstep", "plan_footsteps"]
-
-
-@dataclass(frozen=True, slots=True)
-class PlannedFootstep:
-    """One step of a plan.
-
-    Attributes:
-        side: the foot that moves.
-        x: of the middle of its sole in the frame of the heights, m.
-        y: as `x`.
-        yaw: its heading, rad.
-        height: of the plane on which it rests, under its middle, m.
-        slope: how that plane rises forward and to the left.
-        bearing: the part of the sole that bears, from and to, from its middle forward, m.
-        bearing_share: of the sole's area.
-        manner: as the robot walks, or carefully, from a stand.
-        cost: what the step costs, s.
-    """
-
-    side: Literal["left", "right"]
-    x: float
-    y: float
-    yaw: float
-    height: float
-    slope: tuple[float, float]
-    bearing: tuple[float, float]
-    bearing_share: float
-    manner: Literal["walked", "careful"]
-    cost: float
-
-
-@dataclass(frozen=True, slots=True)
-class FootstepPlan:
-    """Steps to a goal, or why there are none. Iterating over it gives the steps.
-
-    Attributes:
-        steps: from the first on; the last one puts the feet side by side.
-        reason: why there are none, or None.
-        cost: of all steps, s; NaN without any.
-        epsilon: they cost no more than so many times the cheapest, as far as the search's
-            estimates are right.
-        first_cost: what the first plan cost that was found, s.
-        expanded: places of a foot that the search looked on from.
-    """
-
-    steps: tuple[PlannedFootstep, ...]
-    reason: str | None = None
-    cost: float = math.nan
-    epsilon: float = math.nan
-    first_cost: float = math.nan
-    expanded: int = 0
-
-    def __iter__(self) -> Iterator[PlannedFootstep]:
-        """Give the steps one after the other."""
-        return iter(self.steps)
-
-    def __len__(self) -> int:
-        """Return how many steps there are."""
-        return len(self.steps)
 
 
 def plan_footsteps(
@@ -129,18 +70,7 @@ def plan_footsteps(
     found, reason = layer.plan(heights, lattice, start, (*goal, goal_radius))
     if found is None:
         return FootstepPlan((), reason)
-    steps = [
-        PlannedFootstep(side, x, y, yaw, height_there, slope, bearing, bearing_share, manner, cost)
-        for (side, manner, cost), (x, y, yaw), stands in found["steps"]
-        for height_there, slope, bearing, bearing_share in [stands]
-    ]
-    return FootstepPlan(
-        tuple(steps),
-        cost=found["cost"],
-        epsilon=found["epsilon"],
-        first_cost=found["first"][0],
-        expanded=found["expanded"],
-    )
+    return plan_of(found)
 
 
 def _heights(height: ArrayLike) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:

@@ -143,7 +143,8 @@ def run_episode(
         result, problem = _played(episode, scores, writers, progress, interruption)
         remembered = scores.memory.map()
         ways = (scores.estimate, scores.truth)
-        writers.finish(result, *ways, remembered, scores.stairs, problem)
+        feet = (scores.stairs, scores.footsteps)
+        writers.finish(result, *ways, remembered, feet, problem)
     way = scores.truth.positions()[:, :2]
     clearance = least_clearance(episode.course, episode.robot, way)
     findings = None if scores.watch is None else scores.watch.findings()

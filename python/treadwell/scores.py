@@ -1,7 +1,8 @@
 """What a run's result says of an episode: collected on its way, put together at its end."""
 
 from treadwell.episode import Episode, Step
-from treadwell.judging.result import CollisionEntry, Result, StateEntry
+from treadwell.footstep_plan import FootstepPlan, plan_of
+from treadwell.judging.result import STAGES, CollisionEntry, Result, StateEntry
 from treadwell.judging.verdict import Verdict
 from treadwell.map_memory import MapMemory
 from treadwell.measuring.measures import PoseErrors, timing
@@ -11,6 +12,7 @@ from treadwell.measuring.watch import Watch
 from treadwell.processor import processor
 from treadwell.recording.core_products import stairs_of
 from treadwell.recording.stair_memory import StairMemory
+from treadwell.recording.step_memory import StepMemory
 from treadwell.recording.trajectory import Trajectory
 from treadwell.version import __version__
 
@@ -27,6 +29,9 @@ class Scores:
         self.estimate, self.truth = Trajectory(), Trajectory()
         self.memory = MapMemory()
         self.stairs = StairMemory()
+        self.footsteps = StepMemory()
+        self._plan: FootstepPlan | None = None
+        self._plans = 0
         self.states: list[StateEntry] = []
         self._state: str | None = None
 
@@ -44,7 +49,30 @@ class Scores:
         self.estimate.add_level(step.time_ns, believed.pose)
         self.truth.add_level(step.time_ns, truth)
         self.stairs.update(stairs_of(pilot), climbing=bool(step.footsteps))
+        self._footsteps(step)
         self.memory.update(*pilot.floor())
+
+    def _footsteps(self, step: Step) -> None:
+        pilot, judge = self._episode.pilot, self._episode.judge
+        if pilot.footstep_times is not None and pilot.footstep_times[0] != self._plans:
+            self._plans = pilot.footstep_times[0]
+            found = pilot.planned_footsteps()
+            self._plan = None if found is None else plan_of(found)
+            if self._plan is not None and step.footsteps:
+                self.footsteps.plan(self._plan)
+        self.footsteps.frame(
+            self._plan,
+            1e-9 * step.time_ns,
+            landed=pilot.stepping.landed,
+            listed=bool(step.footsteps),
+            soles=judge.soles,
+            touch=(judge.touch.left, judge.touch.right),
+        )
+
+    @property
+    def plans_footsteps(self) -> bool:
+        """Whether the behaviour plans footsteps."""
+        return self._episode.pilot.footstep_times is not None
 
 
 def result_of(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: float) -> Result:
@@ -84,6 +112,8 @@ def result_of(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: 
             for hit in judge.collisions
         ],
         steps_taken=episode.pilot.steps_taken,
+        footsteps_planned=scores.footsteps.landed if scores.plans_footsteps else None,
+        footstep_plans=scores.footsteps.plans,
         stairs_climbed=judge.stairs_climbed,
         stairs_descended=judge.stairs_descended,
         path_length=judge.path_length,
@@ -91,7 +121,11 @@ def result_of(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: 
         localization=scores.poses.errors(),
         surfaces=surfaces(course, remembered, passed, places) if seen else [],
         behaviour=scores.states,
-        timing_ms={stage: timing(values) for stage, values in seconds.items()},
+        timing_ms={
+            stage: timing(values)
+            for stage, values in seconds.items()
+            if stage in STAGES or len(values)
+        },
     )
     if seen:
         result.map = map_counts(

@@ -8,6 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell.footstep_plan import FootstepPlan
 from treadwell.protocols import Footstep
 
 Floats = NDArray[np.float64]
@@ -60,6 +61,27 @@ class StairTrace:
         return math.hypot((left_x + right_x) / 2, (left_y + right_y) / 2)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class SteppingTrace:
+    """Footsteps as they were planned last, and over what ground, in the map frame.
+
+    Attributes:
+        plan: the steps and what they cost.
+        exit: (x, y) where the way leads on over ground that was not seen, m; None at the goal.
+        count: how many plans there were, this one too.
+        origin: (x, y) lower-left corner of the ground, m.
+        cell: side of a cell, m.
+        ground: (rows, cols) float32 heights, m, NaN where nothing is known; rows along +y.
+    """
+
+    plan: FootstepPlan
+    exit: tuple[float, float] | None
+    count: int
+    origin: tuple[float, float]
+    cell: float
+    ground: NDArray[np.float32]
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Trace:
     """One camera frame. The world frame and the map frame are the same; lengths in metres.
@@ -93,6 +115,7 @@ class Trace:
         touch: whether the left and the right sole truly stand on something.
         footsteps: steps that the feet are told to take, in the robot's frame of when they were
             listed first; empty while they walk or stand.
+        stepping: a plan of footsteps that is new at this frame; None where there is none.
         misstep: why the last listed step was taken back, or "stumbled" where a walk came upon an
             unseen step; None where neither was.
         state: name of the behaviour's state.
@@ -127,6 +150,7 @@ class Trace:
     soles: tuple[Sole, Sole] | None = None
     touch: tuple[bool, bool] = (False, False)
     footsteps: tuple[Footstep, ...] = ()
+    stepping: SteppingTrace | None = None
     misstep: str | None = None
     state: str
     goal: tuple[float, float]

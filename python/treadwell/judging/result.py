@@ -126,6 +126,29 @@ class StateEntry(Table):
     """Its name."""
 
 
+class FootstepPlanEntry(Table):
+    """A plan of footsteps by which the feet began to step: what it costs, and for what."""
+
+    time: Instant
+    """When they began, simulated seconds."""
+    steps: Count = 0
+    """How many steps it has."""
+    careful_steps: Count = 0
+    """How many of them are careful ones."""
+    walked: float = 0.0
+    """The time of its walked steps, s."""
+    careful: float = 0.0
+    """The time of its careful steps, s."""
+    partial: float = 0.0
+    """What it costs that soles bear in part, s."""
+    turns: float = 0.0
+    """What it costs that feet turn, s."""
+    unseen: float = 0.0
+    """What the way costs on from there over ground that was not seen, s."""
+    expanded: Count = 0
+    """Places of a foot that were looked on from."""
+
+
 class Timing(Table):
     """How long a stage took."""
 
@@ -181,6 +204,8 @@ class Result(Table):
     """What it ran into."""
     steps_taken: Count = 0
     """Steps of the feet."""
+    footsteps_planned: Count | None = None
+    """Steps that were planned one by one, and landed; None of a behaviour that plans none."""
     stairs_climbed: Count = 0
     """Changes of height of 15 mm or more upwards, by truth."""
     stairs_descended: Count = 0
@@ -197,6 +222,8 @@ class Result(Table):
     """The map's cells against the truth."""
     behaviour: list[StateEntry] = []
     """The states of the behaviour, in order."""
+    footstep_plans: list[FootstepPlanEntry] = []
+    """Plans of footsteps by which the feet began to step, in order."""
     timing_ms: dict[str, Timing] = {}
     """Stage -> how long it took, ms."""
 

@@ -5,8 +5,9 @@ from numpy.typing import NDArray
 
 from treadwell._core import Pilot, Stair
 from treadwell.errors import CoreError
+from treadwell.footstep_plan import plan_of
 from treadwell.recording.mesh_file import SurfaceMesh
-from treadwell.trace import StairTrace
+from treadwell.trace import StairTrace, SteppingTrace
 
 
 def stairs_of(pilot: Pilot) -> tuple[StairTrace, ...]:
@@ -22,6 +23,16 @@ def _stair(stair: Stair) -> StairTrace:
         back_fitted=stair.back_fit is not None,
         steps_ago=stair.steps_ago,
     )
+
+
+def stepping_of(pilot: Pilot, known: int) -> SteppingTrace | None:
+    """Return the plan of footsteps that was made last; None where `known` plans are all."""
+    found = pilot.planned_footsteps()
+    if found is None or found["count"] == known:
+        return None
+    ground = pilot.stepping_ground()
+    assert ground is not None
+    return SteppingTrace(plan_of(found), found["exit"], found["count"], *ground)
 
 
 def occupied_by(pilot: Pilot) -> NDArray[np.float32]:

@@ -21,6 +21,11 @@ FITTED_EDGE: Final = (230, 50, 40)
 PLANNED_SOLE: Final = (70, 130, 240)
 LANDED_SOLES: Final = ((250, 250, 250), (165, 170, 180))
 """Where the left and the right foot came down."""
+WALKED_SOLE: Final = (90, 200, 250)
+"""Steps of a plan that are walked."""
+CAREFUL_SOLE: Final = (255, 140, 0)
+EXIT: Final = (255, 70, 160)
+"""Where a plan leads on over ground that was not seen."""
 GOAL: Final = (60, 200, 90, 110)
 GROUND_PLANE: Final = (95, 185, 120)
 _NOT_AT_THE_FEET: Final = ("points", "trajectory", "walls", "obstacles", "believed", "path", "maps")
@@ -80,6 +85,7 @@ def blueprint(
     feet: tuple[float, float, float] | None = None,
     *,
     maps: bool = False,
+    footsteps: bool = False,
 ) -> rrb.Blueprint:
     """Return the views: the world large, map and camera beside it, states and plots below.
 
@@ -88,6 +94,7 @@ def blueprint(
         extent: m, size of the course.
         feet: m, world: where the robot starts, for a view that goes with its feet; None for none.
         maps: whether the robot was told a map, for a view of it.
+        footsteps: whether footsteps are planned, for a view of the ground and a plot of the cost.
     """
     x, y, z = centre
     away = max(1.3, 0.8 * extent)  # then all of it is in view
@@ -107,10 +114,12 @@ def blueprint(
         rrb.Spatial2DView(origin="/camera/depth", name="Depth"),
         rrb.Spatial2DView(origin="/map/floor", name="Floor and obstacle grid"),
         rrb.Spatial2DView(origin="/map/clearance", name="Distance to obstacles"),
+        *([rrb.Spatial2DView(origin="/map/ground", name="Planned footsteps")] if footsteps else []),
     )
     plots = rrb.Horizontal(
         rrb.TimeSeriesView(origin="/error", name="Error against truth (m, rad)"),
         rrb.TimeSeriesView(origin="/timing", name="Time a stage takes (ms)"),
+        *([rrb.TimeSeriesView(origin="/footsteps", name="Cost of the way")] if footsteps else []),
     )
     beside = [] if feet is None else [_feet(feet)]
     if maps:

@@ -1,6 +1,6 @@
 """`map.png`: the remembered map from above, with the true course and the ways over it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -19,14 +19,15 @@ from treadwell.course.course import Course
 from treadwell.files import whole_file
 from treadwell.judging.result import Result
 from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
-from treadwell.recording.stair_memory import StairMemory, outline
+from treadwell.recording.sole_outlines import draw_soles
+from treadwell.recording.stair_memory import StairMemory
+from treadwell.recording.stair_outlines import draw_stairs
+from treadwell.recording.step_memory import StepMemory
 from treadwell.recording.trajectory import Trajectory
-from treadwell.trace import StairTrace
 
 _UNKNOWN: Final = (0.80, 0.80, 0.82)
 _OBSTACLE: Final = (0.09, 0.09, 0.11)
 _BELIEVED, _CLIMBED, _TRUE, _OUTLINE, _GOAL = "#ff5fa2", "#7d3cd7", "#ffffff", "#e4572e", "#b8f53d"
-_STAIR, _FRONT, _FITTED = "#7ff0ff", "#ffbe00", "#00b7ff"
 _LEAST_SPAN: Final = 0.02
 """Metres that the colours span at least, to either side of the middle."""
 _MARGIN: Final = 0.25
@@ -69,6 +70,7 @@ def draw_map(
     estimate: Trajectory,
     truth: Trajectory,
     stairs: StairMemory,
+    footsteps: tuple[StepMemory, tuple[float, float]] | None = None,
 ) -> None:
     """Draw the picture, whole or not at all.
 
@@ -80,6 +82,7 @@ def draw_map(
         estimate: the believed way.
         truth: the true one.
         stairs: what was known of stairs, and when the robot climbed.
+        footsteps: where soles were planned and put, and the length and width of a sole, m.
 
     Raises:
         OSError: the file cannot be written.
@@ -95,8 +98,10 @@ def draw_map(
     axes.set_facecolor(_UNKNOWN)
     colours = draw_cells(axes, remembered, height_span(remembered))
     _draw_course(axes, course)
-    _draw_stairs(axes, stairs.stairs)
+    draw_stairs(axes, stairs.stairs)
     _draw_ways(axes, estimate, truth, np.array(stairs.climbing, dtype=bool))
+    if footsteps is not None:
+        draw_soles(axes, *footsteps)
     _draw_ends(axes, course, caption)
     axes.set_xlim(west, east)
     axes.set_ylim(south, north)
@@ -202,41 +207,6 @@ def _draw_course(axes: Axes, course: Course) -> None:
                 )
             )
             label = None
-
-
-def _draw_stairs(axes: Axes, stairs: Sequence[StairTrace]) -> None:
-    """Draw the stairs as they were seen last, with their heights."""
-    labels = {"stair": "stair", "front": "its front edge", "fitted": "the same, fitted"}
-    for stair in stairs:
-        axes.add_patch(
-            Polygon(
-                outline(stair),
-                closed=True,
-                fill=False,
-                edgecolor=_STAIR,
-                linewidth=1.0,
-                zorder=3.2,
-                label=labels.pop("stair", None),
-            )
-        )
-        kind = "fitted" if stair.front_fitted else "front"
-        axes.plot(
-            stair.front[:, 0],
-            stair.front[:, 1],
-            color=_FITTED if stair.front_fitted else _FRONT,
-            linewidth=2.2,
-            zorder=3.4,
-            label=labels.pop(kind, None),
-        )
-        axes.annotate(
-            f"{1e3 * stair.height():.0f}",
-            tuple(stair.front[0, :2]),
-            xytext=(-2, 2),
-            textcoords="offset points",
-            fontsize=6,
-            color=_STAIR,
-            zorder=3.4,
-        )
 
 
 def _draw_ways(

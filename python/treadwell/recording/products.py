@@ -17,6 +17,7 @@ from treadwell.recording.layout import (
 )
 from treadwell.recording.map_shapes import MapShapes
 from treadwell.recording.stair_shapes import StairShapes
+from treadwell.recording.step_shapes import StepShapes
 from treadwell.recording.tracks import Tracks
 from treadwell.trace import Trace
 
@@ -47,6 +48,7 @@ class Products:
         self._rows = rows
         self._map = MapShapes(rows, low, high)
         self._stair_shapes = StairShapes(rows, sole)
+        self._step_shapes = StepShapes(rows, low=low, high=high, sole=sole)
         self._tracks = Tracks(rows)
         self._state = ""
         self._states: list[str] = []
@@ -71,6 +73,7 @@ class Products:
         if trace.map_due:
             self._map.log(trace)
         self._stair_shapes.log(trace)
+        self._step_shapes.log(trace.stepping)
         self._tracks.log(trace)
         self._log_believed(trace)
         self._log_state(trace)

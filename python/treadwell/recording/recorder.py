@@ -88,7 +88,11 @@ class Recorder:
                 send_properties=False,
             )
             views = blueprint(
-                centre, extent, feet=begin if top > 0.0 else None, maps=static_map is not None
+                centre,
+                extent,
+                feet=begin if top > 0.0 else None,
+                maps=static_map is not None,
+                footsteps=scenario.navigation.behaviour == "footsteps",
             )
             # A table of contents would take memory, 14 kB with each batch of each entity.
             self._stream.save(path, views, write_footer=False)

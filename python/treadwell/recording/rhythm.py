@@ -17,11 +17,13 @@ class Rhythm:
         map: whether the map's window is, with what is measured in it.
         voxels: whether the local map is; until `voxels_taken` says that there were any.
         guesses: whether a localizer's guesses are.
+        plans: plans of footsteps that are recorded already.
     """
 
     def __init__(self) -> None:
         """Begin before the first frame."""
         self.map = self.voxels = self.guesses = False
+        self.plans = 0
         self._mapped_ns = -_MAP_NS
         self._frames = self._until_voxels = 0
 

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from treadwell._core import Pilot
 from treadwell.episode import Episode, Step
 from treadwell.poses import pose_matrix
-from treadwell.recording.core_products import occupied_by, stairs_of
+from treadwell.recording.core_products import occupied_by, stairs_of, stepping_of
 from treadwell.recording.rhythm import Rhythm
 from treadwell.trace import Trace
 
@@ -34,6 +34,9 @@ def trace_of(episode: Episode, step: Step, rhythm: Rhythm | None = None) -> Trac
     frame = step.observation.depth
     planes = pilot.planes()
     path = pilot.path()
+    stepping = stepping_of(pilot, 0 if rhythm is None else rhythm.plans)
+    if rhythm is not None and stepping is not None:
+        rhythm.plans = stepping.count
     return Trace(
         time_ns=step.time_ns,
         map_from_robot=map_from_robot,
@@ -59,6 +62,7 @@ def trace_of(episode: Episode, step: Step, rhythm: Rhythm | None = None) -> Trac
         soles=episode.judge.soles,
         touch=(episode.judge.touch.left, episode.judge.touch.right),
         footsteps=step.footsteps,
+        stepping=stepping,
         misstep="stumbled" if pilot.stepping.stumbled else pilot.stepping.misstep,
         state=step.state,
         goal=episode.goal,

@@ -18,6 +18,7 @@ from treadwell.recording.messages import encode_command, encode_estimate
 from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import write_scenario
 from treadwell.recording.stair_memory import StairMemory
+from treadwell.recording.step_memory import StepMemory
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory, turned
 from treadwell.recording.writing_thread import WritingThread
 from treadwell.trace import Trace
@@ -158,7 +159,7 @@ class Writers:
         estimate: Trajectory,
         truth: Trajectory,
         remembered: RememberedMap,
-        stairs: StairMemory,
+        feet: tuple[StairMemory, StepMemory],
         problem: TreadwellError | None = None,
     ) -> None:
         """Close what is open and write the rest, `result.json` last.
@@ -168,7 +169,7 @@ class Writers:
             estimate: the believed way.
             truth: the true one.
             remembered: what the map last said of every cell.
-            stairs: what was known of stairs.
+            feet: what was known of stairs, and where footsteps were planned and taken.
             problem: what ended the run before its time; it is raised in the end.
 
         Raises:
@@ -182,7 +183,7 @@ class Writers:
             lambda: estimate.write(folder / ESTIMATE),
             lambda: truth.write(folder / TRUTH),
             lambda: episode.simulation.save_audit(folder),
-            lambda: self._draw(result, estimate, truth, remembered, stairs),
+            lambda: self._draw(result, estimate, truth, remembered, feet),
             lambda: write_map(folder / MAP, remembered, known_occupied(episode.pilot)),
             self._write_mesh,
             lambda: result.write(folder / "result.json"),
@@ -212,13 +213,16 @@ class Writers:
         estimate: Trajectory,
         truth: Trajectory,
         remembered: RememberedMap,
-        stairs: StairMemory,
+        feet: tuple[StairMemory, StepMemory],
     ) -> None:
         # Late, because matplotlib takes half a second to import.
         from treadwell.recording.map_picture import caption_of, draw_map
 
         course, path = self._episode.course, self._folder / PICTURE
-        draw_map(path, course, caption_of(result), remembered, estimate, truth, stairs)
+        stairs, footsteps = feet
+        sole = self._episode.robot.file.legs.left.sole
+        soles = (footsteps, (sole.length, sole.width))
+        draw_map(path, course, caption_of(result), remembered, estimate, truth, stairs, soles)
 
     def _check_place(self) -> None:
         """Find out whether the folder is still where it was.

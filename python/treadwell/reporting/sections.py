@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import tomli_w
@@ -15,22 +15,11 @@ from treadwell.physics.parts import MODEL
 from treadwell.recording.map_file import PICTURE
 from treadwell.recording.scenario_file import without_nothing
 from treadwell.reporting.charts import Line, plot, state_lane
+from treadwell.reporting.footstep_costs import footstep_costs
 from treadwell.reporting.images import Shot, film_uri, picture_uri, strip
 from treadwell.reporting.repeat import Repeat, repeat_command
 from treadwell.reporting.run_data import RunData, pose_errors
-
-_MOST_ROWS: Final = 60
-"""Of a table; the rest is counted."""
-
-
-@dataclass(frozen=True, slots=True)
-class TableData:
-    """A table: a title, the columns' names, rows of text, and what stands below."""
-
-    title: str
-    columns: tuple[str, ...]
-    rows: Sequence[tuple[str, ...]]
-    note: str = ""
+from treadwell.reporting.tables import TableData, table
 
 
 @dataclass(slots=True)
@@ -131,6 +120,11 @@ def _facts(run: RunData) -> list[tuple[str, str]]:
         ("falls", str(result.falls)),
         ("collisions", str(len(result.collisions))),
         ("steps taken", str(result.steps_taken)),
+        *(
+            [("of them planned one by one", str(result.footsteps_planned))]
+            if result.footsteps_planned is not None
+            else []
+        ),
         ("stairs up / down", f"{result.stairs_climbed} / {result.stairs_descended}"),
         ("path", f"{result.path_length:.2f} m"),
         ("replans", str(result.replans)),
@@ -150,11 +144,17 @@ def _first_tables(result: Result) -> list[TableData]:
     hits = sorted(result.collisions, key=lambda hit: -hit.impulse)
     rows = [(f"{hit.time:.2f}", hit.robot_part, hit.element, f"{hit.impulse:.2f}") for hit in hits]
     columns = ("time (s)", "part of the robot", "element", "impulse (N·s)")
-    return [_table("Collisions, the hardest first", columns, rows)]
+    return [table("Collisions, the hardest first", columns, rows)]
 
 
 def _tables(result: Result) -> list[TableData]:
-    tables = [_localization(result), _surfaces(result), _map(result), _timing(result)]
+    tables = [
+        _localization(result),
+        _surfaces(result),
+        _map(result),
+        footstep_costs(result),
+        _timing(result),
+    ]
     return [table for table in tables if table.rows]
 
 
@@ -166,7 +166,7 @@ def _localization(result: Result) -> TableData:
             ("heading (°)", *_spread(kinds.heading_error, 180.0 / np.pi)),
             ("leg odometry alone (mm)", *_spread(kinds.odometry_translation_error, 1e3)),
         ]
-    return _table("Localization against the truth", ("", "mean", "std", "max"), rows)
+    return table("Localization against the truth", ("", "mean", "std", "max"), rows)
 
 
 def _surfaces(result: Result) -> TableData:
@@ -182,7 +182,7 @@ def _surfaces(result: Result) -> TableData:
         for top in result.surfaces
     ]
     columns = ("element", "part", "truth (mm)", "map (mm)", "error (mm)", "cells")
-    return _table("Heights of what can be walked on", columns, rows)
+    return table("Heights of what can be walked on", columns, rows)
 
 
 def _map(result: Result) -> TableData:
@@ -196,7 +196,7 @@ def _map(result: Result) -> TableData:
             ("of them right", f"{100 * counts.obstacle_cells_right:.1f} %"),
             ("called floor", f"{100 * counts.obstacle_called_floor:.1f} %"),
         ]
-    return _table("Map", ("", ""), rows)
+    return table("Map", ("", ""), rows)
 
 
 def _timing(result: Result) -> TableData:
@@ -205,12 +205,7 @@ def _timing(result: Result) -> TableData:
         for stage, t in result.timing_ms.items()
         if t.count
     ]
-    return _table("Time (ms)", ("stage", "median", "p99", "max", "times"), rows)
-
-
-def _table(title: str, columns: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> TableData:
-    more = len(rows) - _MOST_ROWS
-    return TableData(title, columns, rows[:_MOST_ROWS], f"and {more} more" if more > 0 else "")
+    return table("Time (ms)", ("stage", "median", "p99", "max", "times"), rows)
 
 
 def _spread(spread: Spread, factor: float) -> tuple[str, str, str]:

@@ -14,8 +14,8 @@ from treadwell.comparing.sides import candidates
 from treadwell.comparing.tables import comparison_tables
 from treadwell.errors import InputError
 from treadwell.reporting.course_plan import course_plan
-from treadwell.reporting.sections import TableData
 from treadwell.reporting.sweep_data import EpisodeRow, SweepData
+from treadwell.reporting.tables import TableData
 
 _MOST_FAILURES: Final = 500
 _MOST_PLANS: Final = 30

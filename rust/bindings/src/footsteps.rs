@@ -1,8 +1,9 @@
 //! Footsteps over a height map.
 
+use behaviour::PlannedFootsteps;
 use geometry::{Goal, Grid, Lattice, PlanarPose};
 use mapping::HeightMap;
-use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods, ToPyArray};
 use planning::footsteps::{FootstepLayer, FootstepPlan, FootstepsConfig};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -70,12 +71,41 @@ impl PyFootstepLayer {
     }
 }
 
+/// The plan that a behaviour made last, as [`PyFootstepLayer::plan`] has it, or the `reason` why there was none, with `exit` (x, y) m or None, `count`, and `times` (first, best) s.
+pub(crate) fn planned_as_dict(
+    py: Python<'_>,
+    planned: &PlannedFootsteps<'_>,
+) -> PyResult<Py<PyDict>> {
+    let made = match planned.plan {
+        Ok(plan) => as_dict(py, plan)?,
+        Err(_) => PyDict::new(py).unbind(),
+    };
+    let dict = made.bind(py);
+    dict.set_item("reason", planned.plan.err().map(|none| none.to_string()))?;
+    dict.set_item("exit", planned.plan.ok().and_then(|plan| plan.exit_m))?;
+    dict.set_item("count", planned.count)?;
+    dict.set_item("times", (planned.times.first_s, planned.times.best_s))?;
+    Ok(made)
+}
+
+/// Corner (2,) m and side of a cell, m, and (rows, cols) heights, m, NaN where nothing is known.
+pub(crate) type Ground<'py> = ((f64, f64), f64, Bound<'py, PyArray2<f32>>);
+
+/// The ground over which a behaviour planned.
+pub(crate) fn ground<'py>(py: Python<'py>, map: &HeightMap) -> PyResult<Ground<'py>> {
+    let heights_m = map.heights_m();
+    let shape = [heights_m.rows(), heights_m.cols()];
+    let flat = heights_m.values().to_pyarray(py).reshape(shape)?;
+    Ok((map.lattice.origin_m.into(), map.lattice.cell_m, flat))
+}
+
 fn as_dict(py: Python<'_>, plan: &FootstepPlan) -> PyResult<Py<PyDict>> {
     let made = PyDict::new(py);
     let steps = plan.steps.iter().map(|step| {
         let (pose, foothold) = (&step.pose, &step.foothold);
         (
-            (side_name(step.side), step.manner.name(), step.cost_s),
+            (side_name(step.side), step.manner.name()),
+            (step.cost.time_s, step.cost.partial_s, step.cost.turn_s),
             (pose.x_m, pose.y_m, pose.yaw_rad),
             (
                 foothold.height_m,
@@ -87,6 +117,7 @@ fn as_dict(py: Python<'_>, plan: &FootstepPlan) -> PyResult<Py<PyDict>> {
     });
     made.set_item("steps", steps.collect::<Vec<_>>())?;
     made.set_item("cost", plan.cost_s)?;
+    made.set_item("whole", plan.whole_s)?;
     made.set_item("epsilon", plan.epsilon)?;
     made.set_item("first", plan.first)?;
     made.set_item("expanded", plan.expanded)?;

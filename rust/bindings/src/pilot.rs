@@ -5,10 +5,12 @@ use localization::Guess;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, ToPyArray};
 use pilot::{Components, Pilot, STAGES, Settings};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use sensing::{Frame, Observation};
 
 use crate::components;
 use crate::error::{bad_setting, failed, parse, run, unreadable};
+use crate::footsteps::{Ground, ground, planned_as_dict};
 use crate::mesh_files::{MeshArrays, surface_arrays};
 use crate::observation;
 use crate::octree::{PyOctree, Rows, rows};
@@ -205,6 +207,30 @@ impl PyPilot {
     /// (n, 3) m and (m, 3): corners and triangles of the surface; none of a world model that keeps no surface.
     fn surface<'py>(&self, py: Python<'py>) -> PyResult<Option<MeshArrays<'py>>> {
         surface_arrays(py, self.pilot.perception.world_model.surface())
+    }
+
+    /// The footsteps that the behaviour planned last, as `FootstepLayer.plan` gives them, with `exit`, `count` and `times`; None where it planned none.
+    fn planned_footsteps(&self, py: Python<'_>) -> PyResult<Option<Py<PyDict>>> {
+        let planned = self.pilot.planned_footsteps();
+        planned
+            .map(|planned| planned_as_dict(py, &planned))
+            .transpose()
+    }
+
+    /// How many plans of footsteps the behaviour has made, and how long the last one took, s, until a first and until the best plan was found;
+    /// None where it made none.
+    #[getter]
+    fn footstep_times(&self) -> Option<(u64, f64, f64)> {
+        let planned = self.pilot.planned_footsteps()?;
+        Some((planned.count, planned.times.first_s, planned.times.best_s))
+    }
+
+    /// The ground over which footsteps were planned last: corner (2,) m, side of a cell m, and (rows, cols) heights, m; None where none were.
+    fn stepping_ground<'py>(&self, py: Python<'py>) -> PyResult<Option<Ground<'py>>> {
+        let planned = self.pilot.planned_footsteps();
+        planned
+            .map(|planned| ground(py, planned.ground))
+            .transpose()
     }
 
     /// Via points passed so far.
