@@ -203,6 +203,11 @@ def test_what_is_being_written_no_signal_cuts_short(monkeypatch: pytest.MonkeyPa
 
 
 def test_a_run_whose_terminal_is_closed_ends_with_its_result(tmp_path: Path) -> None:
+    def own_terminal() -> None:
+        # A closed terminal counts, also where `nohup` has these tests ignore it.
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
+        fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+
     folder = tmp_path / "run"
     ours, theirs = os.openpty()
     process = subprocess.Popen(
@@ -211,7 +216,7 @@ def test_a_run_whose_terminal_is_closed_ends_with_its_result(tmp_path: Path) -> 
         stdout=theirs,
         stderr=theirs,
         start_new_session=True,
-        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
+        preexec_fn=own_terminal,
     )
     os.close(theirs)
     reader = threading.Thread(target=drain, args=(ours, folder / "recording.rrd"))
