@@ -39,6 +39,7 @@ KEYS = [
     "falls",
     "collisions",
     "steps_taken",
+    "footsteps_planned",
     "stairs_climbed",
     "stairs_descended",
     "path_length",
@@ -47,6 +48,7 @@ KEYS = [
     "surfaces",
     "map",
     "behaviour",
+    "footstep_plans",
     "timing_ms",
 ]
 NOTHING = Spread(mean=0.0, std=0.0, max=0.0)

@@ -208,8 +208,9 @@ class Episode:
 
     @property
     def seconds(self) -> dict[str, Sequence[float]]:
-        """Stage -> seconds that it took, one a tick at which it ran."""
-        return self.times.seconds()
+        """Stage -> seconds that it took, one a tick at which it ran; of footsteps, one a plan."""
+        times = self.times.seconds().items()
+        return {name: took for name, took in times if len(took) or name not in FOOTSTEP_STAGES}
 
     @property
     def static_map(self) -> Octree | None:

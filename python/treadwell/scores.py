@@ -2,7 +2,7 @@
 
 from treadwell.episode import Episode, Step
 from treadwell.footstep_plan import FootstepPlan, plan_of
-from treadwell.judging.result import STAGES, CollisionEntry, Result, StateEntry
+from treadwell.judging.result import CollisionEntry, Result, StateEntry
 from treadwell.judging.verdict import Verdict
 from treadwell.map_memory import MapMemory
 from treadwell.measuring.measures import PoseErrors, timing
@@ -121,11 +121,7 @@ def result_of(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: 
         localization=scores.poses.errors(),
         surfaces=surfaces(course, remembered, passed, places) if seen else [],
         behaviour=scores.states,
-        timing_ms={
-            stage: timing(values)
-            for stage, values in seconds.items()
-            if stage in STAGES or len(values)
-        },
+        timing_ms={stage: timing(values) for stage, values in seconds.items()},
     )
     if seen:
         result.map = map_counts(
