@@ -111,8 +111,8 @@ impl FootstepSpace<'_> {
             (false, StepReach::WalkingOnly) => return None,
             (false, _) | (true, StepReach::Careful) => (StepManner::Careful, limits.clearance_m[1]),
         };
-        let seen = || standing.pose.relative(&there.pose);
-        if manner == StepManner::Careful && !limits.reaches_down(&seen(), there.side, -rise_m) {
+        let ahead = || standing.pose.relative(&there.pose);
+        if manner == StepManner::Careful && !limits.reaches_down(&ahead(), there.side, -rise_m) {
             return None;
         }
         let lifted_m = height_m(&there).max(height_m(moving)) + clearance_m - config.way_margin;

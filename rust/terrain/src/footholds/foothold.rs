@@ -117,7 +117,13 @@ impl Footholds {
         }
         // What was not seen is higher than nothing.
         let is_higher = |beside: PlaceUnder| plane.above_m(&beside) > beside.within_m;
-        let mut beside = raster.under.iter().chain(&raster.around).map(top);
+        // What is known under the sole was looked at above; where levels meet, nobody knows just where, it may be high.
+        let unknown = if ground.len() < raster.under.len() {
+            raster.under.as_slice()
+        } else {
+            &[]
+        };
+        let mut beside = unknown.iter().chain(&raster.around).map(top);
         if beside.any(is_higher) {
             return Err(NoFoothold::Higher);
         }

@@ -71,10 +71,8 @@ impl Plain {
 
 /// Whether an obstacle is a false match of the camera's: nothing that stands there fills so few cells.
 fn is_speck(view: &FloorView, cell: Cell, specks: usize) -> bool {
-    let mut near = CellArea::of(cell).grown(2).cells();
-    let obstacles = near
-        .by_ref()
-        .filter(|&near| matches!(view.cell(near), Surface::Obstacle(_)));
+    let near = CellArea::of(cell).grown(2).cells();
+    let obstacles = near.filter(|&near| matches!(view.cell(near), Surface::Obstacle(_)));
     obstacles.take(specks + 1).count() <= specks
 }
 
