@@ -38,6 +38,8 @@ settings! {
         guess_rounds: usize = 8, "1", within(0.0, 1000.0);
         /// So many times as dear is a way in that field over ground that was not seen, where a plan may lead there.
         unseen_cost: f64 = 2.0, "1", at_least(1.0);
+        /// So many times as dear is a climb there: stairs that nobody saw may be a drop.
+        unseen_climb_cost: f64 = 5.0, "1", at_least(1.0);
         /// The first plan costs no more than so many times the cheapest, as far as the field is right.
         epsilon: f64 = 5.0, "1", at_least(1.0), "Likhachev et al. 2003: ARA*: anytime A* with provable bounds on sub-optimality";
         /// By how much that falls from pass to pass.

@@ -14,8 +14,8 @@ pub(super) struct Prices {
     /// Nor beyond this, m, where one of both was not seen: stairs there are no steeper than the highest step by the shortest tread, and one
     /// unseen cell may hide one step.
     unseen_rise_m: f32,
-    /// What a metre of climbing costs beside the way, s.
-    climb_s: f32,
+    /// What a metre of climbing costs beside the way, s: over what was seen, and over what was not.
+    climb_s: [f32; 2],
     /// So many times as dear is a way over what carries no sole.
     poor: f32,
     /// So many times as dear is a way over what was not seen.
@@ -28,12 +28,13 @@ impl Prices {
         let rise_m = limits.careful_rise_m;
         let shortest_tread_m = config.foothold.least_bearing * limits.sole.length_m;
         let more_s = (limits.careful_s(0.0, rise_m) - limits.walked_s).max(0.0);
+        let climb_s = more_s / rise_m;
         Self {
             way_s: [straight_s, std::f64::consts::SQRT_2 * straight_s].map(|cost_s| cost_s as f32),
             walk_m: config.walk_height as f32,
             rise_m: rise_m as f32,
             unseen_rise_m: (rise_m * (cell_m / shortest_tread_m).max(0.5)) as f32,
-            climb_s: (more_s / rise_m) as f32,
+            climb_s: [climb_s, config.unseen_climb_cost * climb_s].map(|cost_s| cost_s as f32),
             poor: config.poor_cost as f32,
             unseen: config.unseen_cost as f32,
         }
@@ -56,8 +57,9 @@ pub(super) fn steps<'a>(
         }
         let to = (to[1] * cols + to[0]) as usize;
         let rise_m = (levels_m[to] - levels_m[from as usize]).abs();
-        let climb_s = if rise_m > prices.walk_m {
-            rise_m * prices.climb_s
+        let unseen = exits[to] || exits[from as usize];
+        let climb_s = if unseen || rise_m > prices.walk_m {
+            rise_m * prices.climb_s[usize::from(unseen)]
         } else {
             0.0
         };
@@ -68,7 +70,7 @@ pub(super) fn steps<'a>(
             (false, false) => prices.poor,
         };
         let way_s = prices.way_s[diagonal] * times;
-        let most_m = if exits[to] || exits[from as usize] {
+        let most_m = if unseen {
             prices.unseen_rise_m
         } else {
             prices.rise_m
@@ -76,4 +78,28 @@ pub(super) fn steps<'a>(
         // What has no level has no rise.
         (rise_m <= most_m).then_some((to as u32, way_s + climb_s))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::footsteps::tests::LIMITS;
+
+    #[test]
+    fn a_climb_that_nobody_saw_is_dearer_than_one_that_was_seen_and_its_rise_counts_however_even() {
+        let config = FootstepsConfig::default();
+        let prices = Prices::of(&config, &LIMITS, config.field_cell);
+        let cost_s = |rise_m: f32, exit: bool| {
+            let (levels_m, carries, exits) = ([0.0, rise_m], [true; 2], [false, exit]);
+            let mut steps = steps((0, 2, 1), (&levels_m, &carries, &exits), &prices);
+            steps.next().map(|(_, cost_s)| cost_s)
+        };
+        let climb_s = |rise_m: f32, exit: bool| Some(cost_s(rise_m, exit)? - cost_s(0.0, exit)?);
+        let [seen_s, unseen_s] = [false, true].map(|exit| climb_s(0.02, exit).unwrap());
+        let times = config.unseen_climb_cost as f32;
+        assert!((unseen_s - times * seen_s).abs() < 1e-5);
+        assert_eq!(climb_s(0.004, false), Some(0.0));
+        assert!((climb_s(0.004, true).unwrap() - 0.2 * unseen_s).abs() < 1e-5);
+        assert_eq!(cost_s(0.1, false), None);
+    }
 }

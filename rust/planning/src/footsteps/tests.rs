@@ -11,7 +11,7 @@ use super::limits::StepReach;
 use super::*;
 
 /// As of the robot `qrio`.
-const LIMITS: StepLimits = StepLimits {
+pub(super) const LIMITS: StepLimits = StepLimits {
     sole: SoleSize {
         length_m: 0.105,
         width_m: 0.075,
