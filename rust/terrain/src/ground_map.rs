@@ -183,12 +183,17 @@ impl GroundMap {
                 middle_m[1] + cell_m * f64::from(rows),
             ]
         };
+        let level_m = self.config.level as f32;
+        let explained_m = self.config.explained_cells * cell_m;
         let beside = || {
             self.around(cell, 2).map(|(by, height_m)| {
                 let other_m = middle_of(by);
                 let separated = edges.iter().filter(|edge| edge.separates(at_m, other_m));
                 let away_m = geometry::distance_m(other_m, at_m);
                 let height_m = self.as_stair_m(height_m, levels_m);
+                let height_m = (edges.iter())
+                    .find_map(|edge| edge.corrected_m((other_m, explained_m), height_m, level_m))
+                    .unwrap_or(height_m);
                 (separated.count(), away_m, height_m, other_m)
             })
         };
@@ -197,13 +202,13 @@ impl GroundMap {
                 .then(a.1.total_cmp(&b.1))
                 .then(a.2.total_cmp(&b.2))
         })?;
-        let level_m = self.config.level as f32;
         let mut unexplained = beside().filter(|&(count, away_m, other_height_m, other_m)| {
             let heights_m = [other_height_m, height_m];
             count == separated
                 && away_m < self.config.unexplained_cells * cell_m
                 && (other_height_m - height_m).abs() > level_m
-                && !(edges.iter()).any(|edge| edge.explains((other_m, cell_m), heights_m, level_m))
+                && !(edges.iter())
+                    .any(|edge| edge.explains((other_m, explained_m), heights_m, level_m))
         });
         // One alone is off itself.
         let explained = unexplained.nth(1).is_none();

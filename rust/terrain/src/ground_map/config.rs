@@ -19,6 +19,8 @@ settings! {
         surrounded: usize = 5, "1", within(1.0, 8.0);
         /// Beside an edge, cells up to so far away that are as high as no edge explains tell that not all edges are known.
         unexplained_cells: f64 = 1.5, "1", within(0.0, 10.0);
+        /// An edge explains the height of cells whose middle is no more than so many cells away: the map and the edges were seen from many places.
+        explained_cells: f64 = 1.0, "1", within(0.0, 10.0);
         /// An edge matters to cells of the map whose middle is no more than so many cells away: one that it runs through, and those beside it.
         edge_cells: f64 = 2.0, "1", within(0.0, 10.0);
         /// Beside an edge the map's heights may be off by so much: what is no further from a stair's height is as high as that.

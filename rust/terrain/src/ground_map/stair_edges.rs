@@ -7,9 +7,10 @@ use stairs::{Staircase, SureEdge};
 #[derive(Debug, Clone, Default)]
 pub(super) struct StairEdges(Vec<KnownEdge>);
 
-/// A straight piece of an edge, m, and how high the ground is on both sides, m.
+/// A straight piece of an edge, m, and how high the ground is before and behind it, m.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct KnownEdge {
+    /// From its left end to its right one, as seen from before it.
     ends_m: [[f64; 2]; 2],
     pub(super) levels_m: [f32; 2],
 }
@@ -36,19 +37,34 @@ impl KnownEdge {
 
     /// Whether it lies between two places.
     pub(super) fn separates(&self, a_m: [f64; 2], b_m: [f64; 2]) -> bool {
-        let side = |from: [f64; 2], to: [f64; 2], at: [f64; 2]| {
-            (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0]) > 0.0
-        };
         let [from_m, to_m] = self.ends_m;
-        side(from_m, to_m, a_m) != side(from_m, to_m, b_m)
-            && side(a_m, b_m, from_m) != side(a_m, b_m, to_m)
+        is_left_of(self.ends_m, a_m) != is_left_of(self.ends_m, b_m)
+            && is_left_of([a_m, b_m], from_m) != is_left_of([a_m, b_m], to_m)
     }
 
-    /// Whether a cell of this size, m, has another height than one that lies on one side of this edge, m, because the edge runs through it: it
+    /// The height on the side of this edge on which a place, m, so near to it, m, lies, where it was seen as high as the other side: the edge knows
+    /// better than a cell of the map where levels meet.
+    pub(super) fn corrected_m(
+        &self,
+        (middle_m, near_m): ([f64; 2], f64),
+        height_m: f32,
+        within_m: f32,
+    ) -> Option<f32> {
+        let [from_m, to_m] = self.ends_m;
+        let [this_m, other_m] = if is_left_of([from_m, to_m], middle_m) {
+            [self.levels_m[1], self.levels_m[0]]
+        } else {
+            self.levels_m
+        };
+        let wrong = (height_m - other_m).abs() <= within_m && self.away_m(middle_m) <= near_m;
+        wrong.then_some(this_m)
+    }
+
+    /// Whether what is seen around a place, m, so near to this edge, m, has another height than what lies on one side of it because of the edge: it
     /// may have that of either side, and what lies between.
     pub(super) fn explains(
         &self,
-        (middle_m, cell_m): ([f64; 2], f64),
+        (middle_m, near_m): ([f64; 2], f64),
         [there_m, here_m]: [f32; 2],
         within_m: f32,
     ) -> bool {
@@ -56,7 +72,7 @@ impl KnownEdge {
         let is_side = (self.levels_m.iter()).any(|level_m| (level_m - here_m).abs() <= within_m);
         is_side
             && (low_m - within_m..=high_m + within_m).contains(&there_m)
-            && self.away_m(middle_m) <= 0.5 * cell_m
+            && self.away_m(middle_m) <= near_m
     }
 
     /// How far it is from a place, m.
@@ -68,6 +84,11 @@ impl KnownEdge {
         let share = ((off_x * along_x + off_y * along_y) / squared).clamp(0.0, 1.0);
         geometry::hypot(off_x - share * along_x, off_y - share * along_y)
     }
+}
+
+/// Whether a place lies to the left of who goes from one to another.
+fn is_left_of([from, to]: [[f64; 2]; 2], at: [f64; 2]) -> bool {
+    (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0]) > 0.0
 }
 
 impl StairEdges {
