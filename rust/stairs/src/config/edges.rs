@@ -69,6 +69,9 @@ settings! {
         same_level: f64 = 0.007, "m", POSITIVE;
         /// Standard deviation of the place of an edge between two regions of labels; only fits that are surer count.
         sure_place: f64 = 0.006, "m", POSITIVE;
+        /// An edge that was as sure as that is listed among the known ones while its place is known to this, as the robot steps on: a cell of 4 cm tells
+        /// it no better.
+        lasting_place: f64 = 0.0115, "m", POSITIVE;
         /// Standard deviation of the heading of an edge between two regions of labels; only fits that are surer count.
         sure_heading: f64 = 0.06, "rad", POSITIVE;
         /// How far to either side of where it is crossed an edge is fitted whose middle is out of view.

@@ -120,23 +120,25 @@ impl Fits {
             if let Some(known) = self.edges.iter_mut().find(|known| same(known)) {
                 known.add(&fitted, &edge, &map_from_camera, fusion);
                 known.heights_m = heights_m;
+                known.was_sure |= is_sure(&known.fit, fits);
                 continue;
             }
             if self.edges.len() == fits.kept {
                 let _ = self.edges.remove(0);
             }
-            let new = FusedEdge::new(&fitted, &edge, heights_m, &map_from_camera, fusion);
+            let mut new = FusedEdge::new(&fitted, &edge, heights_m, &map_from_camera, fusion);
+            new.was_sure = is_sure(&new.fit, fits);
             self.edges.push(new);
         }
     }
 
-    /// The edges that were fitted well.
+    /// The edges that were fitted well, while their places are known.
     pub(crate) fn sure(&self, list: &mut Vec<SureEdge>, tuning: &FitsTuning) {
         list.clear();
         let sure = self
             .edges
             .iter()
-            .filter(|fused| is_sure(&fused.fit, tuning));
+            .filter(|fused| fused.was_sure && lasts(&fused.fit, tuning));
         list.extend(sure.map(|fused| SureEdge {
             edge: fused.whole(),
             heights_m: fused.heights_m,
@@ -194,6 +196,11 @@ impl Fits {
 /// Whether a fit is better than what the labels say.
 fn is_sure(fit: &EdgeFit, tuning: &FitsTuning) -> bool {
     fit.place_sigma_m < tuning.sure_place && fit.heading_sigma_rad < tuning.sure_heading
+}
+
+/// Whether an edge that was sure is known still.
+fn lasts(fit: &EdgeFit, tuning: &FitsTuning) -> bool {
+    fit.place_sigma_m < tuning.lasting_place && fit.heading_sigma_rad < tuning.sure_heading
 }
 
 /// The front edges ahead of the robot that are in view, with the levels on both sides. What lies before an edge is the stair that ends

@@ -82,6 +82,8 @@ pub(crate) struct FusedEdge {
     whole: Edge<Map>,
     /// How sure it is.
     pub(super) fit: EdgeFit,
+    /// Whether it was ever sure.
+    pub(super) was_sure: bool,
 }
 
 impl FusedEdge {
@@ -107,6 +109,7 @@ impl FusedEdge {
                 place_sigma_m: sigmas.0,
                 heading_sigma_rad: sigmas.1,
             },
+            was_sure: false,
         }
     }
 

@@ -314,3 +314,20 @@ fn what_may_be_remembered_for_no_step_is_gone_after_one() {
         assert_eq!(!staircase.stairs.is_empty(), remembered, "{forget_steps}");
     }
 }
+
+/// An edge that was fitted well is no less sure against the map, which the same steps carry along.
+#[test]
+fn edges_that_were_fitted_well_are_known_for_many_steps_and_not_for_ever() {
+    let (mut looker, _) = seen(2);
+    looker.planes.reliable = false;
+    let scan = Scan::new(CAMERA);
+    let sure = looker.recognizer.staircase.edges.len();
+    assert!(sure > 1, "{sure}");
+    let mut known = |steps: u64| {
+        let planes = &looker.planes;
+        let staircase = (looker.recognizer).update(&scan, planes, &Pose::identity(), steps);
+        staircase.unwrap().edges.len()
+    };
+    assert_eq!(known(20), sure);
+    assert_eq!(known(90), 0);
+}
