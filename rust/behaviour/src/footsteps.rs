@@ -5,7 +5,9 @@
 //! robot looks.
 
 mod config;
+mod failed;
 mod look;
+mod progress;
 mod route;
 mod state;
 mod step;
@@ -15,7 +17,7 @@ use geometry::PlanarPose;
 use planning::footsteps::{FootstepLayer, FootstepPlan, FootstepsConfig, NoFootsteps, StepLimits};
 use settings::{MakeError, Part, Table, TableDescription, read};
 use stairs::ClimbingConfig;
-use terrain::ground_map::GroundMap;
+use terrain::ground_map::{GroundMap, SoleOnGround};
 
 use crate::climbing::head::ClimbingHead;
 use crate::climbing::stepper::Stepper;
@@ -26,7 +28,9 @@ use crate::{
     StairClimbingConfig, WalkingBehaviour,
 };
 pub use config::SteppingConfig;
-use route::{CostToGo, Failed};
+use failed::Failed;
+use progress::CostToGo;
+use route::LastSteps;
 pub(crate) use state::State;
 use walk::Lead;
 
@@ -56,16 +60,22 @@ pub struct Footsteps {
     ground: GroundMap,
     /// Where feet found no ground, or met something.
     failed: Failed,
+    /// Where feet stood, as long as the robot steps.
+    felt: Vec<SoleOnGround>,
     /// The walk to the next height change.
     lead: Option<Lead>,
     /// How far it has come: from look to look, and from step to step.
     to_go: [CostToGo; 2],
+    /// The place at which it looks, if it was told one, m.
+    looked_at_m: Option<[f64; 2]>,
     /// Looks since the last step.
     looks: u32,
     /// Times that stepping was given up, and where that was last.
     given_up: (u32, Option<PlanarPose>),
     /// How many of the list's steps had landed when it was planned last.
     planned_at: usize,
+    /// The steps that were planned last, while they are taken.
+    last: LastSteps,
     /// The last plan, and how many there were.
     planned: (Option<Result<FootstepPlan, NoFootsteps>>, u64),
 }
@@ -101,11 +111,14 @@ impl Footsteps {
             config,
             walking,
             failed: Failed::default(),
+            felt: Vec::new(),
             lead: None,
             to_go: [CostToGo::default(); 2],
+            looked_at_m: None,
             looks: 0,
             given_up: (0, None),
             planned_at: 0,
+            last: LastSteps::default(),
             planned: (None, 0),
         })
     }

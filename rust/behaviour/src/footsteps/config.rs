@@ -21,8 +21,12 @@ settings! {
         side_by_side: f64 = 0.015, "m", POSITIVE;
         /// While it steps, the robot looks at the place of the step that comes so many steps later.
         look_ahead: usize = 3, "1", within(0.0, 20.0);
+        /// The last places where feet stood, so many, count as ground while the robot steps.
+        felt: usize = 12, "1", within(0.0, 1000.0);
         /// So many looks without a step between them are in vain, and so many times stepping is given up before the robot refuses.
         tries: u32 = 3, "1", within(1.0, 100.0);
+        /// So many looks at one place that leave it unseen are enough.
+        looks: u32 = 2, "1", within(1.0, 100.0);
         /// So often the way on may turn out longer than it had seemed and still count as getting on.
         longer: u32 = 8, "1", within(0.0, 1000.0);
         /// Stepping that was given up no farther away than this is not tried again until the robot has walked.

@@ -1,8 +1,10 @@
 //! The states `look` and `search`: the robot stands, looks at where its steps may go, and plans them.
 
-use planning::footsteps::{FootstepPlan, NoFootsteps};
+use geometry::PlanarPose;
+use planning::footsteps::{FootstepPlan, NoFootsteps, PlannedFootstep};
 
-use super::route::{CostToGo, Since, told};
+use super::progress::{CostToGo, Since};
+use super::route::{LastSteps, told};
 use super::{Footsteps, State};
 use crate::Motion;
 use crate::machine::Tick;
@@ -11,6 +13,7 @@ impl Footsteps {
     /// Begins to look at a place of the map, m; where none is said, towards the goal and near.
     pub(super) fn begin_look(&mut self, tick: &Tick<'_>, place_m: Option<[f64; 2]>) {
         let ahead_m = self.config.stop_before;
+        self.looked_at_m = place_m;
         let place_m = place_m.map_or_else(
             || {
                 let way = tick.situation.plan.and_then(|plan| plan.way.as_ref().ok());
@@ -50,8 +53,15 @@ impl Footsteps {
     /// Plans steps, and takes them, looks again, walks on or gives up.
     fn plan_steps(&mut self, tick: &Tick<'_>) {
         let feet = Self::soles(tick);
+        self.feel(tick);
         self.read_ground(tick, &feet, Self::sole_heights_m(tick));
-        match self.plan_from(tick, feet, None) {
+        let planned = self.planned_on(tick);
+        let mut found = self.plan_from(tick, feet, None, &planned);
+        if self.was_looked_at_in_vain(tick, &found) {
+            self.read_ground(tick, &feet, Self::sole_heights_m(tick));
+            found = self.plan_from(tick, feet, None, &planned);
+        }
+        match found {
             Ok(plan) if !plan.steps.is_empty() && self.gets_on(Since::Look, &plan) => {
                 self.take(tick, &plan);
             }
@@ -67,6 +77,34 @@ impl Footsteps {
         }
     }
 
+    /// Whether a plan ends where the robot has looked often enough from near by: no plan ends there again.
+    fn was_looked_at_in_vain(
+        &mut self,
+        tick: &Tick<'_>,
+        found: &Result<FootstepPlan, NoFootsteps>,
+    ) -> bool {
+        let exit_m = found.as_ref().ok().and_then(|plan| plan.exit_m);
+        let (Some(looked_at_m), Some(exit_m)) = (self.looked_at_m.take(), exit_m) else {
+            return false;
+        };
+        let near_m = self.layer.limits().sole.length_m;
+        let here_m = [tick.pose.x_m, tick.pose.y_m];
+        let same = geometry::distance_m(looked_at_m, exit_m) < near_m;
+        let near = geometry::distance_m(here_m, exit_m) < self.config.look_from + near_m;
+        same && near && self.failed.look_at(exit_m, near_m, self.config.looks)
+    }
+
+    /// The steps on from here that were planned before the robot stood.
+    fn planned_on(&self, tick: &Tick<'_>) -> Vec<PlannedFootstep> {
+        let taken = self.stepper.holds.len();
+        let next = self.last.from(taken, &PlanarPose::default());
+        let standing = next.first().map(|step| step.side.other());
+        standing.map_or_else(Vec::new, |standing| {
+            self.last
+                .from(taken, &self.told_from_map(tick, standing, taken))
+        })
+    }
+
     /// Begins to take a plan's steps.
     fn take(&mut self, tick: &Tick<'_>, plan: &FootstepPlan) {
         let feet = Self::soles(tick);
@@ -78,6 +116,10 @@ impl Footsteps {
         let holds = plan.steps.iter().take(self.config.run).map(told);
         self.stepper.start(holds.collect(), &tick.pose, ground_m);
         self.planned_at = 0;
+        self.last = LastSteps {
+            steps: plan.steps.clone(),
+            ..LastSteps::default()
+        };
         self.to_go[Since::Step as usize] = CostToGo::default();
         self.enter(State::Step);
     }

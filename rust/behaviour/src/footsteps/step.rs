@@ -2,9 +2,11 @@
 
 use geometry::PlanarPose;
 use planning::footsteps::{FootstepPlan, StepManner};
+use robot::Side;
 
 use super::Footsteps;
-use super::route::{Since, after, told};
+use super::progress::Since;
+use super::route::{LastSteps, after, told};
 use crate::climbing::stepper::Stepped;
 use crate::machine::Tick;
 use crate::{Footstep, Misstep, Motion};
@@ -21,6 +23,7 @@ impl Footsteps {
         }
         if self.stepper.has_begun() && landed > self.planned_at {
             self.planned_at = landed;
+            self.feel(tick);
             self.plan_on(tick, landed);
         }
         match self.stepper.advance(tick.situation, tick.passed_s) {
@@ -41,8 +44,10 @@ impl Footsteps {
         heights_m[under_way.side.index()] = under_way.height_m;
         self.read_ground(tick, &feet, heights_m);
         let mut holds: Vec<Footstep> = self.stepper.holds[..=landed].to_vec();
-        match self.plan_from(tick, feet, Some(under_way.side.other())) {
+        let planned = self.last.from(landed + 1, &told_from_map);
+        match self.plan_from(tick, feet, Some(under_way.side.other()), &planned) {
             Ok(plan) if self.may_walk_on(tick) && self.only_walks(&plan) => {
+                self.last = LastSteps::default();
                 holds.extend(self.closing(&under_way));
             }
             Ok(plan) => {
@@ -52,30 +57,43 @@ impl Footsteps {
                     pose: told_from_map.compose(&hold.pose),
                     ..hold
                 }));
+                self.last = LastSteps {
+                    steps: plan.steps,
+                    told_from_map,
+                    first: landed + 1,
+                };
             }
             Err(_) => {}
         }
         self.stepper.replace(holds);
     }
 
-    /// Where the feet will be in the map, and how to tell the walker of a place there: by what it was told of the foot that stands, wherever that
-    /// came to stand.
+    /// Where the feet will be in the map, and how to tell the walker of a place there.
     fn feet_after(
         &self,
         tick: &Tick<'_>,
         landed: usize,
         under_way: &Footstep,
     ) -> ([PlanarPose; 2], PlanarPose) {
-        let soles = Self::soles(tick);
-        let standing = under_way.side.other();
+        let told_from_map = self.told_from_map(tick, under_way.side.other(), landed);
+        let lands = told_from_map.inverse().compose(&under_way.pose);
+        let feet = after(&Self::soles(tick), under_way.side, lands);
+        (feet, told_from_map)
+    }
+
+    /// How to tell the walker of a place in the map: by what it was told of the foot that stands after so many steps, wherever that came to stand.
+    pub(super) fn told_from_map(
+        &self,
+        tick: &Tick<'_>,
+        standing: Side,
+        landed: usize,
+    ) -> PlanarPose {
         let mut before = self.stepper.holds[..landed].iter().rev();
         let told = before.find(|hold| hold.side == standing);
-        let stands = soles[standing.index()];
-        let told_from_map = told.map_or_else(PlanarPose::default, |told| {
+        let stands = Self::soles(tick)[standing.index()];
+        told.map_or_else(PlanarPose::default, |told| {
             told.pose.compose(&stands.inverse())
-        });
-        let lands = told_from_map.inverse().compose(&under_way.pose);
-        (after(&soles, under_way.side, lands), told_from_map)
+        })
     }
 
     /// The step that puts the other foot beside one that lands, where there is ground at its height.
@@ -104,7 +122,8 @@ impl Footsteps {
         if self.may_walk_on(tick) && self.stands_to_walk(tick) {
             self.begin_walk(tick);
         } else {
-            self.begin_look(tick, None);
+            let plan = self.planned.0.as_ref().and_then(|plan| plan.as_ref().ok());
+            self.begin_look(tick, plan.and_then(|plan| plan.exit_m));
         }
     }
 
@@ -112,6 +131,7 @@ impl Footsteps {
         if let Some(hold) = self.stepper.holds.get(landed) {
             self.failed.note(*hold, misstep);
         }
+        self.last = LastSteps::default();
         if self.failed.count() > self.config.tries as usize {
             self.refuse(match misstep {
                 Misstep::NoGround => {
@@ -128,7 +148,7 @@ impl Footsteps {
     pub(super) fn stands_to_walk(&self, tick: &Tick<'_>) -> bool {
         let [left, right] = Self::soles(tick);
         let limits = self.layer.limits();
-        let apart = limits.beside(&right, robot::Side::Left).relative(&left);
+        let apart = limits.beside(&right, Side::Left).relative(&left);
         let near_m = self.config.side_by_side;
         let [left_m, right_m] = tick.situation.soles.map(|sole| sole.height_m);
         geometry::hypot(apart.x_m, apart.y_m) < near_m && (left_m - right_m).abs() < near_m

@@ -3,6 +3,7 @@
 use planning::footsteps::{FootstepPlan, StepManner};
 use planning::{Path, Plan};
 
+use super::route::LastSteps;
 use super::{Footsteps, State};
 use crate::machine::Tick;
 use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
@@ -65,6 +66,8 @@ impl Footsteps {
     pub(super) fn begin_walk(&mut self, tick: &Tick<'_>) {
         self.walking.resume(tick.situation);
         self.failed.forget();
+        self.felt.clear();
+        self.last = LastSteps::default();
         self.looks = 0;
         self.enter(State::Walk);
     }
@@ -135,7 +138,7 @@ impl Footsteps {
         }
         let feet = Self::soles(tick);
         self.read_ground(tick, &feet, Self::sole_heights_m(tick));
-        let found = self.plan_from(tick, feet, None).ok();
+        let found = self.plan_from(tick, feet, None, &[]).ok();
         let by_steps = found.filter(|plan| plan.exit_m.is_none() || way.is_none());
         by_steps
             .and_then(|plan| Lead::along(&plan, tick))

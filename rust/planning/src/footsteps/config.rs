@@ -18,7 +18,7 @@ settings! {
         /// Cells along a sole at most: a finer map is refused, since each foothold would take as many times longer.
         sole_cells: usize = 200, "1", within(2.0, 1000.0);
         /// What it costs at most that a sole bears only in part.
-        partial_cost: f64 = 0.3, "s", within(0.0, 100.0);
+        partial_cost: f64 = 1.0, "s", within(0.0, 100.0);
         /// What a turn of a foot costs beside its time: of two ways as long, the straight one.
         turn_cost: f64 = 0.1, "s/rad", within(0.0, 100.0);
         /// Ground whose height differs by no more from that of the standing foot is walked on; other heights take careful steps.
@@ -40,6 +40,10 @@ settings! {
         unseen_cost: f64 = 2.0, "1", at_least(1.0);
         /// So many times as dear is a climb there: stairs that nobody saw may be a drop.
         unseen_climb_cost: f64 = 5.0, "1", at_least(1.0);
+        /// What it costs to look, where a plan ends before what is not known.
+        look_cost: f64 = 2.5, "s", within(0.0, 100.0);
+        /// From there on the way costs so many times what that field says, as the steps of a plan do.
+        field_short: f64 = 1.5, "1", at_least(1.0);
         /// The first plan costs no more than so many times the cheapest, as far as the field is right.
         epsilon: f64 = 5.0, "1", at_least(1.0), "Likhachev et al. 2003: ARA*: anytime A* with provable bounds on sub-optimality";
         /// By how much that falls from pass to pass.
@@ -48,6 +52,8 @@ settings! {
         expansions: usize = 10_000, "1", at_least(1.0);
         /// Where no more places of a foot than these were reached and no plan was found, steps are looked at that are twice as fine.
         cornered: usize = 300, "1", within(0.0, 1e9);
+        /// Places of a foot that are expanded in search of steps that lead to the goal itself, where a plan may end before what is not known.
+        to_goal: usize = 3_000, "1", at_least(1.0);
         /// Places of a foot that are expanded before the search for a first plan is given up.
         most_expansions: usize = 30_000, "1", at_least(1.0);
         /// How the ground around the robot is read.

@@ -44,7 +44,7 @@ impl Prices {
 /// The eight steps from a cell, with what each costs; those that lead nowhere left out.
 pub(super) fn steps<'a>(
     (from, cols, rows): (u32, i32, i32),
-    (levels_m, carries, exits): (&'a [f32], &'a [bool], &'a [bool]),
+    (levels_m, carries, not_seen): (&'a [f32], &'a [bool], &'a [bool]),
     prices: &'a Prices,
 ) -> impl Iterator<Item = (u32, f32)> + 'a {
     let (col, row) = (from as i32 % cols, from as i32 / cols);
@@ -57,14 +57,14 @@ pub(super) fn steps<'a>(
         }
         let to = (to[1] * cols + to[0]) as usize;
         let rise_m = (levels_m[to] - levels_m[from as usize]).abs();
-        let unseen = exits[to] || exits[from as usize];
+        let unseen = not_seen[to] || not_seen[from as usize];
         let climb_s = if unseen || rise_m > prices.walk_m {
             rise_m * prices.climb_s[usize::from(unseen)]
         } else {
             0.0
         };
         let diagonal = usize::from(right != 0 && up != 0);
-        let times = match (exits[to], carries[to]) {
+        let times = match (not_seen[to], carries[to]) {
             (true, _) => prices.unseen,
             (false, true) => 1.0,
             (false, false) => prices.poor,

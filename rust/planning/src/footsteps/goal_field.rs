@@ -7,22 +7,28 @@ use terrain::footholds::HighBlocks;
 use super::config::FootstepsConfig;
 use super::field_steps::{Prices, steps};
 use super::limits::StepLimits;
-use super::unseen::{Blurred, Unseen, guess_levels, smooth_levels};
+use super::question::FootstepQuestion;
+use super::unseen::{Unseen, guess_levels, smooth_levels};
 
 /// A field that is rooted at the goal.
 #[derive(Debug, Clone, Default)]
 pub(super) struct GoalField {
-    lattice: Lattice,
-    cols: i32,
-    rows: i32,
+    pub(super) lattice: Lattice,
+    pub(super) cols: i32,
+    pub(super) rows: i32,
     /// Height of each cell's middle, m; NaN where nothing is known of it, infinite where the body has no room.
-    levels_m: Vec<f32>,
-    /// Whether each cell is the end of what a plan can tell: it was not seen, or the map ends there and the goal lies beyond.
-    exits: Vec<bool>,
+    pub(super) levels_m: Vec<f32>,
+    /// Whether each cell was not seen: its level is guessed.
+    pub(super) unseen: Vec<bool>,
+    /// Whether each cell is the end of what a plan can tell: it was not seen, or levels meet in it nobody knows just where, or the map ends there and
+    /// the goal lies beyond.
+    pub(super) exits: Vec<bool>,
     /// Whether so much of the ground around a cell lies on its level that a sole finds support there.
     carries: Vec<bool>,
     /// What the way from each cell costs, s; infinite where nothing leads on.
-    costs_s: Vec<f32>,
+    pub(super) costs_s: Vec<f32>,
+    /// Whether ground at the goal was seen.
+    goal_seen: bool,
     dijkstra: Dijkstra,
     speed_mps: f64,
     /// What the way from the start costs; it is no less from where no cost was found.
@@ -37,26 +43,25 @@ impl GoalField {
         (map, blocks): (&HeightMap, &HighBlocks),
         (config, limits): (&FootstepsConfig, &StepLimits),
         (start, goal): (&PlanarPose, &Goal),
-        (unseen, blurred): (Unseen, Blurred),
+        question: &FootstepQuestion<'_>,
     ) -> bool {
-        self.read_levels((map, blocks, blurred), config, limits);
-        self.exits.clear();
-        self.exits
+        self.read_levels((map, blocks), config, limits);
+        self.unseen.clear();
+        self.unseen
             .extend(self.levels_m.iter().map(|level_m| level_m.is_nan()));
-        if unseen != Unseen::Closed {
+        let leads_there = question.unseen != Unseen::Closed;
+        if leads_there {
             guess_levels(&mut self.levels_m, self.cols);
-            smooth_levels(
-                &mut self.levels_m,
-                &self.exits,
-                self.cols,
-                config.guess_rounds,
-            );
+            let (unseen, rounds) = (&self.unseen, config.guess_rounds);
+            smooth_levels(&mut self.levels_m, unseen, self.cols, rounds);
         }
+        self.read_exits(map, config.walk_height as f32, question.vain_m);
         self.speed_mps = limits.speed_mps();
         self.costs_s.clear();
         self.costs_s.resize(self.levels_m.len(), f32::INFINITY);
         self.dijkstra.clear();
         let mut known = false;
+        self.goal_seen = false;
         for row in 0..self.rows {
             for col in 0..self.cols {
                 let node = (row * self.cols + col) as u32;
@@ -66,11 +71,12 @@ impl GoalField {
                 let here = from_m <= goal.radius_m.max(self.lattice.cell_m);
                 if here && !self.levels_m[node as usize].is_nan() {
                     known = true;
+                    self.goal_seen |= !self.unseen[node as usize];
                     self.dijkstra.begin_at(&mut self.costs_s, node, 0.0);
                 }
             }
         }
-        if unseen != Unseen::Closed && !known {
+        if leads_there && !known {
             known = self.begin_at_rim(goal);
         }
         let prices = Prices::of(config, limits, self.lattice.cell_m);
@@ -79,12 +85,12 @@ impl GoalField {
             costs_s,
             levels_m,
             carries,
-            exits,
+            unseen,
             cols,
             rows,
             ..
         } = self;
-        let ground = (levels_m.as_slice(), carries.as_slice(), exits.as_slice());
+        let ground = (levels_m.as_slice(), carries.as_slice(), unseen.as_slice());
         let steps = |from: u32| steps((from, *cols, *rows), ground, &prices);
         let start = self.lattice.cell_at(start.x_m, start.y_m);
         let col = start.col.clamp(0, (*cols - 1).max(0));
@@ -95,6 +101,11 @@ impl GoalField {
             self.farthest_s = costs_s[node as usize];
         }
         known
+    }
+
+    /// Whether ground at the goal was seen when the costs were found last.
+    pub(super) const fn is_goal_seen(&self) -> bool {
+        self.goal_seen
     }
 
     /// What the way from a place costs at least, s: infinite where there is none.
@@ -135,34 +146,9 @@ impl GoalField {
         any
     }
 
-    /// Where the cheapest way from a place comes, within a distance, m, to what was not seen.
-    pub(super) fn exit_within(&self, x_m: f64, y_m: f64, within_m: f64) -> Option<[f64; 2]> {
-        let mut at = self.lattice.cell_at(x_m, y_m);
-        let index = |cell: Cell| {
-            let inside = (0..self.cols).contains(&cell.col) && (0..self.rows).contains(&cell.row);
-            inside.then(|| (cell.row * self.cols + cell.col) as usize)
-        };
-        for _ in 0..=(within_m / self.lattice.cell_m) as usize {
-            let here = index(at)?;
-            if self.exits[here] {
-                return Some(self.lattice.center_of(at));
-            }
-            let around = CellArea::of(at).grown(1);
-            let next = around
-                .cells()
-                .filter_map(|cell| Some((self.costs_s[index(cell)?], cell)))
-                .min_by(|a, b| a.0.total_cmp(&b.0));
-            match next {
-                Some((cost_s, cell)) if cost_s < self.costs_s[here] => at = cell,
-                _ => return None,
-            }
-        }
-        None
-    }
-
     fn read_levels(
         &mut self,
-        (map, blocks, blurred): (&HeightMap, &HighBlocks, Blurred),
+        (map, blocks): (&HeightMap, &HighBlocks),
         config: &FootstepsConfig,
         limits: &StepLimits,
     ) {
@@ -178,7 +164,7 @@ impl GoalField {
         self.carries.clear();
         for row in 0..self.rows {
             for col in 0..self.cols {
-                let level_m = level_of((map, blurred), Cell::new(col * side, row * side), side);
+                let level_m = level_of(map, Cell::new(col * side, row * side), side);
                 let [x_m, y_m] = self.lattice.center_of(Cell::new(col, row));
                 let body_m = level_m + limits.body_from_m as f32;
                 let no_room = level_m <= HeightMap::BOTTOMLESS_M
@@ -228,10 +214,10 @@ impl GoalField {
 }
 
 /// Height of the middle of a coarse cell, m; where that was not seen, the mean of what was.
-fn level_of((map, blurred): (&HeightMap, Blurred), first: Cell, side: i32) -> f32 {
+fn level_of(map: &HeightMap, first: Cell, side: i32) -> f32 {
     let middle = Cell::new(first.col + side / 2, first.row + side / 2);
-    let about_m = || (blurred == Blurred::Crossed).then(|| map.blurred_m(middle))?;
-    map.height_m(middle).or_else(about_m).unwrap_or_else(|| {
+    let known_m = map.height_m(middle).or_else(|| map.blurred_m(middle));
+    known_m.unwrap_or_else(|| {
         let area = CellArea {
             min: first,
             max: Cell::new(first.col + side - 1, first.row + side - 1),

@@ -10,26 +10,27 @@ use terrain::footholds::HighBlocks;
 
 use super::config::FootstepsConfig;
 use super::goal_field::GoalField;
-use super::lattice_tables::{FINENESSES, LatticeTables, stand};
+use super::lattice_tables::{LatticeTables, stand};
 use super::limits::StepLimits;
-use super::plan::{FootstepPlan, NoFootsteps, PlannedFootstep};
-use super::space::{FootstepSpace, START};
-use super::spots::{Spots, StandingFoot};
-use super::unseen::{Blurred, Unseen};
-use crate::search::ara_star::{AraStar, SearchProgress};
+use super::plan::{FootstepPlan, NoFootsteps};
+use super::question::FootstepQuestion;
+
+use super::spots::Spots;
+use super::unseen::Unseen;
+use crate::search::ara_star::AraStar;
 
 /// Plans footsteps for one robot. Its arrays are used again.
 #[derive(Debug, Clone)]
 pub struct FootstepLayer {
-    config: FootstepsConfig,
-    limits: StepLimits,
-    search: AraStar,
-    field: GoalField,
-    spots: Spots,
-    tables: Option<LatticeTables>,
-    times: PlanTimes,
+    pub(super) config: FootstepsConfig,
+    pub(super) limits: StepLimits,
+    pub(super) search: AraStar,
+    pub(super) field: GoalField,
+    pub(super) spots: Spots,
+    pub(super) tables: Option<LatticeTables>,
+    pub(super) times: PlanTimes,
     /// When it began to plan last.
-    began: Instant,
+    pub(super) began: Instant,
 }
 
 /// How long planning took. Nothing that decides reads it.
@@ -39,19 +40,6 @@ pub struct PlanTimes {
     pub first_s: f64,
     /// Until the best was, or none, s.
     pub best_s: f64,
-}
-
-/// Where a plan begins, and what it makes of what was not seen.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FootstepQuestion {
-    /// Where the feet stand, left and right, in the map.
-    pub feet: [PlanarPose; 2],
-    /// The foot that moves first; `None`: either.
-    pub first: Option<Side>,
-    /// What is made of ground that was not seen.
-    pub unseen: Unseen,
-    /// What is made of ground of which it was not seen where levels meet.
-    pub blurred: Blurred,
 }
 
 impl FootstepLayer {
@@ -116,7 +104,8 @@ impl FootstepLayer {
             feet,
             first: None,
             unseen: Unseen::Closed,
-            blurred: Blurred::Crossed,
+            vain_m: &[],
+            planned: &[],
         };
         self.plan_over(map, &question, goal)
     }
@@ -129,15 +118,10 @@ impl FootstepLayer {
     pub fn plan_over(
         &mut self,
         map: &HeightMap,
-        question: &FootstepQuestion,
+        question: &FootstepQuestion<'_>,
         goal: &Goal,
     ) -> Result<FootstepPlan, NoFootsteps> {
-        let &FootstepQuestion {
-            feet,
-            unseen,
-            blurred,
-            ..
-        } = question;
+        let feet = question.feet;
         self.refuse_what_is_no_question(map, &feet, goal)?;
         self.began = Instant::now();
         let blocks = HighBlocks::new(map);
@@ -145,7 +129,7 @@ impl FootstepLayer {
         let middle = self.limits.middle_of(&feet[0], Side::Left);
         if !self
             .field
-            .find((map, &blocks), settings, (&middle, goal), (unseen, blurred))
+            .find((map, &blocks), settings, (&middle, goal), question)
         {
             return Err(NoFootsteps::UnseenGoal);
         }
@@ -157,61 +141,15 @@ impl FootstepLayer {
         let tables = self.tables.as_mut();
         let start = tables.map(|tables| stand(map, tables, &feet)).transpose()?;
         self.times.first_s = f64::NAN;
-        let (mut best, mut expanded) = (None, 0);
-        for fineness in 0..FINENESSES {
-            // Who is cornered looks at more steps.
-            if leads_on && best.is_none() && expanded <= self.config.cornered {
-                let from = (start, question);
-                (best, expanded) = self.search_steps((map, &blocks), from, goal, fineness);
-            }
-        }
+        let (best, expanded) = match start {
+            Some(feet) if leads_on => self.best_steps((map, &blocks), (feet, question), goal),
+            _ => (None, 0),
+        };
         self.times.best_s = self.began.elapsed().as_secs_f64();
         match best {
             Some(plan) => Ok(FootstepPlan { expanded, ..plan }),
             None => Err(self.why_none(leads_on, expanded)),
         }
-    }
-
-    /// Searches among steps that are so fine; the best plan, if there is any, and how many places of a foot were expanded.
-    fn search_steps(
-        &mut self,
-        (map, blocks): (&HeightMap, &HighBlocks),
-        (start, question): (Option<[StandingFoot; 2]>, &FootstepQuestion),
-        goal: &Goal,
-        fineness: usize,
-    ) -> (Option<FootstepPlan>, usize) {
-        let (Some(tables), Some(start)) = (&mut self.tables, start) else {
-            return (None, 0);
-        };
-        self.spots.clear();
-        let mut space = FootstepSpace {
-            map,
-            blocks,
-            config: &self.config,
-            limits: &self.limits,
-            field: &self.field,
-            goal: *goal,
-            unseen: question.unseen,
-            first: question.first,
-            table: &mut tables.steps[fineness],
-            footholds: &mut tables.footholds,
-            start,
-            spots: &mut self.spots,
-            expanded: 0,
-        };
-        let mut best: Option<FootstepPlan> = None;
-        let (times, began) = (&mut self.times, self.began);
-        let found = |space: &mut FootstepSpace<'_>, progress: &SearchProgress| {
-            if times.first_s.is_nan() {
-                times.first_s = began.elapsed().as_secs_f64();
-            }
-            if let Some(steps) = space.steps_to(progress.last) {
-                take_better(&mut best, (steps, space.exit(progress.last)), progress);
-            }
-        };
-        let _ = (self.search).run_in(&mut space, START, &self.config.search(), found);
-        let expanded = space.expanded;
-        (best, expanded)
     }
 
     const fn why_none(&self, leads_on: bool, expanded: usize) -> NoFootsteps {
@@ -251,32 +189,5 @@ impl FootstepLayer {
                 got_m,
             })
         }
-    }
-}
-
-/// Keeps the better plan of two, and what the first one cost.
-fn take_better(
-    best: &mut Option<FootstepPlan>,
-    (steps, exit_m): (Vec<PlannedFootstep>, Option<[f64; 2]>),
-    progress: &SearchProgress,
-) {
-    let cost_s = steps.iter().map(|step| step.cost.total_s()).sum();
-    let first = best
-        .as_ref()
-        .map_or((cost_s, progress.expanded), |plan| plan.first);
-    // What a plan costs that ends before the goal does not tell how good it is.
-    if best
-        .as_ref()
-        .is_none_or(|plan| exit_m.is_some() || cost_s <= plan.cost_s)
-    {
-        *best = Some(FootstepPlan {
-            steps,
-            exit_m,
-            whole_s: progress.cost,
-            cost_s,
-            epsilon: progress.epsilon,
-            first,
-            expanded: progress.expanded,
-        });
     }
 }

@@ -33,6 +33,8 @@ pub(super) struct FootstepSpace<'a> {
     /// Both feet at the start, left and right.
     pub(super) start: [StandingFoot; 2],
     pub(super) spots: &'a mut Spots,
+    /// So many places of a foot are expanded at most.
+    pub(super) most: usize,
     /// Places of a foot that were expanded.
     pub(super) expanded: usize,
 }
@@ -81,16 +83,15 @@ impl FootstepSpace<'_> {
         stands.then_some(START + 1 + 2 * index + side.index() as u32)
     }
 
-    /// The step of the foot that moves from where it is to a node; `None` where it is not possible.
+    /// The step of the foot that moves from where it is to a place; `None` where it is not possible.
     pub(super) fn step(
         &self,
         (standing, moving): (&StandingFoot, &StandingFoot),
-        to: u32,
+        there: &StandingFoot,
         reach: StepReach,
     ) -> Option<PlannedFootstep> {
-        let there = self.foot_at(to)?;
         let height_m = |foot: &StandingFoot| f64::from(foot.foothold.height_m);
-        let [rise_m, lift_m] = [standing, moving].map(|foot| height_m(&there) - height_m(foot));
+        let [rise_m, lift_m] = [standing, moving].map(|foot| height_m(there) - height_m(foot));
         let Self { limits, config, .. } = self;
         if rise_m.abs() > limits.careful_rise_m - config.height_margin
             || lift_m.abs() > limits.careful_lift_m
@@ -103,7 +104,7 @@ impl FootstepSpace<'_> {
         let level = rise_m.abs().max(lift_m.abs()) <= config.walk_height
             && limits.walks_so_far(way_m)
             && whole(standing)
-            && whole(&there);
+            && whole(there);
         let (manner, clearance_m) = match (level, reach) {
             (true, StepReach::Walking | StepReach::WalkingOnly) => {
                 (StepManner::Walked, limits.clearance_m[0])
@@ -115,7 +116,7 @@ impl FootstepSpace<'_> {
         if manner == StepManner::Careful && !limits.reaches_down(&ahead(), there.side, -rise_m) {
             return None;
         }
-        let lifted_m = height_m(&there).max(height_m(moving)) + clearance_m - config.way_margin;
+        let lifted_m = height_m(there).max(height_m(moving)) + clearance_m - config.way_margin;
         let seen = (self.map, self.blocks);
         let (from, to) = ((&moving.pose, moving.heading), (&there.pose, there.heading));
         if !self.footholds.is_way_free(seen, from, to, lifted_m as f32) {
@@ -125,7 +126,7 @@ impl FootstepSpace<'_> {
             0.5 * (standing.pose.x_m + there.pose.x_m),
             0.5 * (standing.pose.y_m + there.pose.y_m),
         ];
-        let body_m = height_m(&there).min(height_m(standing)) + limits.body_from_m;
+        let body_m = height_m(there).min(height_m(standing)) + limits.body_from_m;
         let (map, blocks) = seen;
         if blocks.is_higher_within(map, middle_m, limits.body_radius_m, body_m as f32) {
             return None;
@@ -159,7 +160,8 @@ impl FootstepSpace<'_> {
         let [right, up] = step.offset;
         let cell = Cell::new(standing.cell.col + right, standing.cell.row + up);
         let to = self.node_of(cell, step.heading, moving.side)?;
-        self.step((standing, moving), to, step.reach)
+        let there = self.foot_at(to)?;
+        self.step((standing, moving), &there, step.reach)
             .map(|taken| (to, taken))
     }
 
@@ -200,7 +202,7 @@ impl FootstepSpace<'_> {
             let reach = self
                 .limits
                 .reach(&standing.pose.relative(&there.pose), there.side)?;
-            steps.push(self.step((&standing, &moving), node, reach)?);
+            steps.push(self.step((&standing, &moving), &there, reach)?);
             feet[there.side.index()] = there;
         }
         if let Some(standing) = self.foot_at(last).filter(|foot| self.is_at_goal(foot)) {
@@ -231,7 +233,7 @@ impl FootstepSpace<'_> {
 
 impl Space for FootstepSpace<'_> {
     fn for_each_step(&mut self, node: u32, parent: Option<u32>, mut reach: impl FnMut(u32, f64)) {
-        if self.expanded >= self.config.most_expansions {
+        if self.expanded >= self.most {
             return;
         }
         self.expanded += 1;

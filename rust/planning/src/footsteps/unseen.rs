@@ -9,22 +9,13 @@ use geometry::{Cell, CellArea};
 pub enum Unseen {
     /// Nobody goes there.
     Closed,
-    /// The way may lead over it. A plan ends where what it knows ends, or so far before that, m.
+    /// The way may lead over it. A plan ends where what it knows ends, or where levels meet nobody knows just where, or so far before that, m.
     Priced {
         /// How far before, m.
         stop_before_m: f64,
         /// At its end the robot faces what was not seen at least so well, rad.
         faces_rad: f64,
     },
-}
-
-/// What is made of ground that was seen, but where levels meet, nobody knows just where: no sole stands there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Blurred {
-    /// The way may lead over it.
-    Crossed,
-    /// As if it had not been seen: it is looked at first.
-    Unseen,
 }
 
 /// Gives cells of which nothing is known, NaN, the level of the nearest that has one, the lowest of several: behind what stands there, more
