@@ -13,7 +13,7 @@ use mapping::{FloorView, HeightMap};
 use stairs::Staircase;
 
 pub use config::GroundMapConfig;
-use plain::Plain;
+use plain::{Plain, without_strays};
 use stair_edges::{KnownEdge, StairEdges};
 
 /// What a sole stands on now.
@@ -114,8 +114,9 @@ impl GroundMap {
         let cols = size(area.min.col, area.max.col);
         let rows = size(area.min.row, area.max.row);
         self.plain = Grid::filled(cols, rows, Plain::Unseen);
+        let view = without_strays(view, area, &self.config);
         for (index, cell) in area.cells().enumerate() {
-            self.plain.values_mut()[index] = Plain::of(view, cell, &self.config);
+            self.plain.values_mut()[index] = Plain::of(&view, cell, &self.config);
         }
     }
 

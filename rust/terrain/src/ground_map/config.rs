@@ -13,7 +13,7 @@ settings! {
         sigma: f64 = 0.003, "m", within(0.0, 0.1);
         /// Heights that differ by no more are one level, from cell to cell of the map.
         level: f64 = 0.01, "m", above_to(0.0, 0.1);
-        /// Obstacles of no more cells than this, with no other within two cells, are false matches of the camera.
+        /// Obstacles, and floor of one level, of no more cells than this, with no other within two cells, are false matches of the camera.
         specks: usize = 2, "1", within(0.0, 100.0);
         /// What was not seen is missing in the midst of a level where so many of the cells around it are floor of one level.
         surrounded: usize = 5, "1", within(1.0, 8.0);

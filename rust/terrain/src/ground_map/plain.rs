@@ -1,5 +1,7 @@
 //! What each cell of the map says by itself.
 
+use std::borrow::Cow;
+
 use geometry::{Cell, CellArea};
 use mapping::{FloorView, Surface};
 
@@ -67,6 +69,30 @@ impl Plain {
             }
         }
     }
+}
+
+/// The view without floor in an area that is a false match of the camera's: so few cells of one level, with no others of it near.
+pub(super) fn without_strays<'a>(
+    view: &'a FloorView,
+    area: CellArea,
+    config: &GroundMapConfig,
+) -> Cow<'a, FloorView> {
+    let level_m = config.level as f32;
+    let is_stray = |cell: &Cell| {
+        let Surface::Floor(height_m) = view.cell(*cell) else {
+            return false;
+        };
+        let same = |other: &Cell| matches!(view.cell(*other), Surface::Floor(other_m) if (other_m - height_m).abs() <= level_m);
+        let near = CellArea::of(*cell).grown(2).cells().filter(same);
+        near.take(config.specks + 1).count() <= config.specks
+    };
+    let mut cleaned = Cow::Borrowed(view);
+    for stray in area.cells().filter(is_stray) {
+        if let Some(surface) = cleaned.to_mut().cells.get_mut(stray) {
+            *surface = Surface::Unknown;
+        }
+    }
+    cleaned
 }
 
 /// Whether an obstacle is a false match of the camera's: nothing that stands there fills so few cells.

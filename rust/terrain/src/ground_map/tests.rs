@@ -153,6 +153,20 @@ fn what_is_missing_in_the_midst_of_a_level_or_looks_like_an_obstacle_of_one_cell
 }
 
 #[test]
+fn a_cell_of_floor_on_another_level_than_all_around_is_a_false_match() {
+    let stray = [0.5, 0.3];
+    let view = view(|x_m, y_m| {
+        let here = (x_m - stray[0]).abs() < 0.03 && (y_m - stray[1]).abs() < 0.03;
+        Surface::Floor(if here { 0.03 } else { 0.0 })
+    });
+    let map = read(&view, Vec::new());
+    assert_eq!(height_m(&map, 0.5, 0.3), None);
+    for [x_m, y_m] in [[0.45, 0.3], [0.56, 0.3], [0.5, 0.25], [0.5, 0.36]] {
+        assert_eq!(height_m(&map, x_m, y_m), Some(0.0), "{x_m} {y_m}");
+    }
+}
+
+#[test]
 fn nobody_can_step_on_an_obstacle_and_under_the_soles_there_is_ground() {
     let view = view(|x_m, _| {
         if x_m < 0.2 {
