@@ -140,7 +140,7 @@ app.command(short_help="Write files that other tools open.", epilog=run_verbs.EX
 def experiment(
     name: Annotated[
         str,
-        typer.Argument(metavar="NAME", help="One of: fog, models, nao, stairs, world."),
+        typer.Argument(metavar="NAME", help="One of `treadwell list experiments`."),
     ],
     *,
     seeds: Annotated[
