@@ -63,7 +63,8 @@ impl Failed {
         self.feet.len()
     }
 
-    /// Moves the ground under soles of this half length and breadth, m, that failed, out of reach of legs that climb so high, m: down where there was none, up where something was in the way.
+    /// Moves the ground under soles of this half length and breadth, m, that failed, out of reach from where they were to stand, of legs that climb so high, m:
+    /// down where there was none, up where something was in the way.
     pub(super) fn take_from(&self, map: &mut HeightMap, half_m: [f64; 2], rise_m: f64) {
         let out_of_reach_m = 2.0 * rise_m;
         for &[x_m, y_m] in &self.unseen_m {
@@ -147,6 +148,11 @@ mod tests {
         assert_eq!(at(&map(&failed), 0.5), Some(0.03));
         failed.note(hold, Misstep::NoGround);
         assert!(at(&map(&failed), 0.5).unwrap() < -0.05);
+        let mut met = Failed::default();
+        met.note(hold, Misstep::Obstructed);
+        met.note(hold, Misstep::Obstructed);
+        // Too high for the legs, and not so high that the body has no room.
+        assert!((at(&map(&met), 0.5).unwrap() - 0.08).abs() < 1e-6);
         failed.note_unseen([0.2, 0.2]);
         assert_eq!(at(&map(&failed), 0.2), Some(HeightMap::BOTTOMLESS_M));
         assert_eq!(at(&map(&failed), 0.22), Some(0.03));

@@ -67,27 +67,28 @@ impl Footsteps {
             self.ground.stand_on(sole);
         }
         for (pose, height_m) in feet.iter().zip(heights_m) {
-            self.ground.stand_on(&SoleOnGround {
-                pose: *pose,
-                half_m,
-                height_m: height_m as f32,
-            });
+            self.ground.stand_on(&self.sole_on_ground(*pose, height_m));
+        }
+    }
+
+    /// A sole that stands here, so high, m.
+    fn sole_on_ground(&self, pose: PlanarPose, height_m: f64) -> SoleOnGround {
+        let SoleSize { length_m, width_m } = self.layer.limits().sole;
+        SoleOnGround {
+            pose,
+            half_m: [0.5 * length_m, 0.5 * width_m],
+            height_m: height_m as f32,
         }
     }
 
     /// Where feet stood there is ground, whatever the map makes of it later: they can go back.
     pub(super) fn feel(&mut self, tick: &Tick<'_>) {
-        let SoleSize { length_m, width_m } = self.layer.limits().sole;
+        let apart_m = 0.5 * self.layer.limits().sole.width_m;
         let heights_m = Self::sole_heights_m(tick);
         for (pose, height_m) in Self::soles(tick).into_iter().zip(heights_m) {
-            let felt = SoleOnGround {
-                pose,
-                half_m: [0.5 * length_m, 0.5 * width_m],
-                height_m: height_m as f32,
-            };
             self.felt
-                .retain(|other| other.pose.distance_m(&pose) > 0.5 * width_m);
-            self.felt.push(felt);
+                .retain(|other| other.pose.distance_m(&pose) > apart_m);
+            self.felt.push(self.sole_on_ground(pose, height_m));
         }
         let too_many = self.felt.len().saturating_sub(self.config.felt);
         let _ = self.felt.drain(..too_many);

@@ -17,7 +17,7 @@ use super::unseen::Unseen;
 use crate::search::ara_star::SearchProgress;
 
 impl FootstepLayer {
-    /// The best steps of all searches, and how many places of a foot were expanded.
+    /// The best steps of all searches, and how many places of a foot the longest of them expanded.
     pub(super) fn best_steps(
         &mut self,
         seen: (&HeightMap, &HighBlocks),
