@@ -51,6 +51,7 @@ __all__ = [
     "TrueStance",
     "VoronoiGraph",
     "Walker",
+    "Ways",
     "WorldModel",
     "components",
     "distances",
@@ -460,7 +461,12 @@ class VoronoiGraph:
 @final
 class RangeMap:
     def __new__(
-        cls, name: str, *, settings: str = "{}", headroom: float | None = None
+        cls,
+        name: str,
+        *,
+        settings: str = "{}",
+        headroom: float | None = None,
+        model: object | None = None,
     ) -> RangeMap: ...
     @property
     def needs_surfaces(self) -> bool: ...
@@ -473,7 +479,10 @@ class RangeMap:
         segmenter: str,
         pool: int,
         baseline: float,
+        stairs: bool = False,
     ) -> None: ...
+    def planes(self) -> Planes | None: ...
+    def staircase(self) -> Staircase | None: ...
     def insert_depth(
         self, depth: NDArray[np.float32], map_from_sensor: NDArray[np.float64], ground: float
     ) -> bool: ...
@@ -575,6 +584,13 @@ class RangeField:
 
 @final
 class FloorView:
+    @staticmethod
+    def of(view: object) -> FloorView: ...
+    def moved(self, by: tuple[float, float, float]) -> FloorView: ...
+    def clearance(self) -> NDArray[np.float32]: ...
+    def passable(
+        self, z: float, rise: float, radius: float, *, unknown: bool = True
+    ) -> NDArray[np.bool_]: ...
     @property
     def origin(self) -> tuple[float, float]: ...
     @property
@@ -590,6 +606,9 @@ class FloorView:
 
 @final
 class Goal:
+    def __new__(
+        cls, position: tuple[float, float], radius: float, height: float | None = None
+    ) -> Goal: ...
     @property
     def position(self) -> tuple[float, float]: ...
     @property
@@ -642,6 +661,7 @@ class Situation:
 
 @final
 class Staircase:
+    def __new__(cls) -> Staircase: ...
     @property
     def frames(self) -> int: ...
     @property
@@ -778,6 +798,20 @@ class FastSlam:
     def landmarks(
         self,
     ) -> list[tuple[tuple[float, float], tuple[float, float, float], int | None, float, int]]: ...
+
+@final
+class Ways:
+    def __new__(cls, planner: str, description_json: str, settings: str = "{}") -> Ways: ...
+    def plan(
+        self,
+        view: FloorView,
+        start: tuple[float, float, float, float],
+        goal: tuple[float, float, float, float | None],
+        seen: RangeMap | None = None,
+    ) -> tuple[NDArray[np.float64] | None, str | None, float, list[Climb], str | None]: ...
+    def unfit(
+        self, rise: float, width: float, edge: tuple[float, float] | None = None
+    ) -> str | None: ...
 
 @final
 class FootstepLayer:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from treadwell._core import Octree, Pilot
+from treadwell._core import Goal, Octree, Pilot
 from treadwell.errors import InputError
 from treadwell.guard import Guard
 from treadwell.plugins import (
@@ -15,6 +15,7 @@ from treadwell.plugins import (
     load_component,
     refuse_user_code,
 )
+from treadwell.protocols import Setup
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Navigation, Scenario
 
@@ -80,16 +81,19 @@ def navigation_settings(navigation: Navigation, of_robot: Mapping[str, Any]) -> 
         navigation: the scenario's table.
         of_robot: the robot's own parameters.
     """
-    return {**navigation.slots(), **_over(of_robot, navigation.parameters())}
+    return {**navigation.slots(), **over(of_robot, navigation.parameters())}
 
 
 def told_map(scenario: Scenario, course: "Course") -> Octree | None:
-    """Return the map that a component needs to be told, None when none does.
+    """Return the map that the robot is told, None when no component needs it and nobody asks.
+
+    A table `[navigation.static_map]` asks for it: a component of the user's may read it.
 
     Raises:
         InputError: `[navigation.static_map]` is bad, or the course too large for it.
     """
-    if not MAPPED & set(scenario.navigation.slots().values()):
+    asked = "static_map" in scenario.navigation.parameters()
+    if not asked and not MAPPED & set(scenario.navigation.slots().values()):
         return None
     from treadwell.course.static_map import map_resolution, static_map
 
@@ -100,16 +104,16 @@ def told_map(scenario: Scenario, course: "Course") -> Octree | None:
 
 def navigation_parameters(scenario: Scenario, robot: "Robot") -> dict[str, Any]:
     """Return the components' parameters: the robot's own, and a scenario's over them."""
-    return _over(robot.file.navigation, scenario.navigation.parameters())
+    return over(robot.file.navigation, scenario.navigation.parameters())
 
 
-def _over(own: Mapping[str, Any], asked: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a robot's own parameters with a scenario's over them, table by table."""
+def over(own: Mapping[str, Any], asked: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a robot's own parameters with those that are asked for over them, table by table."""
     both = dict(own)
     for key, value in asked.items():
         table = both.get(key)
         if isinstance(table, dict) and isinstance(value, dict):
-            value = _over(table, value)
+            value = over(table, value)
         both[key] = value
     return both
 
@@ -170,6 +174,32 @@ def guards(
     return {slot: Guard(slot, names[slot], part, limit_s) for slot, part in components.items()}
 
 
+def setup_of(settings: str, static_map: Octree | None) -> Setup:
+    """Return what components are told, of what `core_settings` returned."""
+    told = json.loads(settings)
+    start, goals = told["start"], told["goals"]
+    pose = start and (*start["position"], start["height"], start["yaw"])
+    places = (Goal(tuple(one["position"]), one["radius"], one.get("height")) for one in goals)
+    return Setup(pose, tuple(places), told["robot"], static_map)
+
+
+def _begin(components: Mapping[str, object], setup: Setup, where: str) -> None:
+    """Tell the components that ask for it what the core is told.
+
+    Raises:
+        InputError: one raised an exception.
+    """
+    for slot, component in components.items():
+        begin = getattr(component, "begin", None)
+        if begin is None:
+            continue
+        try:
+            begin(setup)
+        except (Exception, SystemExit) as error:
+            name = component.name if isinstance(component, Guard) else type(component).__name__
+            raise InputError(f"{where}: navigation.{slot}: {name}.begin: {error!r}") from error
+
+
 def build_core(
     scenario: Scenario, settings: str, components: dict[str, Any], static_map: Octree | None = None
 ) -> Pilot:
@@ -185,6 +215,7 @@ def build_core(
         InputError: a parameter is unknown or cannot be, or the robot's gait has one that cannot;
             the message names file, key and spelling.
     """
+    _begin(components, setup_of(settings, static_map), str(scenario.path or scenario.name))
     try:
         return Pilot(settings, static_map=static_map, **components)
     except InputError as error:

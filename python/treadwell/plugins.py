@@ -36,7 +36,13 @@ PROTOCOLS: dict[str, type] = {
 }
 """Slot -> its protocol."""
 
-OPTIONAL = {"world_model": ("forget",), "planner": ("forget",)}
+OPTIONAL = {
+    "segmenter": ("begin",),
+    "world_model": ("begin", "forget"),
+    "localizer": ("begin", "see"),
+    "planner": ("begin", "forget"),
+    "behaviour": ("begin",),
+}
 """Slot -> the methods that are called where a component has them."""
 
 

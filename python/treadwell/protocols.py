@@ -4,17 +4,42 @@ A component is chosen by name, by `package.module:Class` in a scenario, or given
 `treadwell.run`. Inputs are read-only. What a method raises ends the episode with the outcome
 `error` and the component's name. Map frame, metres and radians throughout; a pose is
 (x, y, z, yaw).
+
+Each may have a method `begin(setup)`, too: called once, before the first tick, with what the core
+is told, a `Setup`. An exception there is bad input: nothing runs. Other methods that a component
+may have or not are said with its protocol.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell._core import BodyState, FloorView, Goal, Planes, Scan, Situation, Staircase
+from treadwell._core import BodyState, FloorView, Goal, Octree, Planes, Scan, Situation, Staircase
 
 Pose = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Setup:
+    """What a component may be told before the first tick; no truth but the start, where it is told.
+
+    Attributes:
+        start: the robot's frame in the map; None where it has to find out.
+        goals: the places to go to, in their order.
+        robot: what the core knows of the body: joints, legs, camera, `body` with its `radius` and
+            `height`, m, as `robot.toml` and the MJCF have them.
+        static_map: the known map of the place as an octree; None where the robot is told none.
+            It is told one where a component that needs it is chosen, or the scenario has a table
+            `[navigation.static_map]`.
+    """
+
+    start: Pose | None
+    goals: tuple[Goal, ...]
+    robot: Mapping[str, Any]
+    static_map: Octree | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,6 +99,7 @@ class WorldModel(Protocol):
 
     It may have a method `forget()`, too: called before the next `insert` when the robot found
     itself elsewhere than it had believed, so that what was mapped lies in the wrong place.
+    `treadwell.mapping.floor_view` makes a view of heights.
     """
 
     def insert(self, planes: Planes, pose: Pose, /) -> bool:
@@ -84,7 +110,13 @@ class WorldModel(Protocol):
 
 
 class Localizer(Protocol):
-    """Keeps the robot's pose in the map."""
+    """Keeps the robot's pose in the map.
+
+    `BodyState.odometry_from_robot` begins at its own origin, not where the robot starts: that is
+    `Setup.start`, which `begin(setup)` is told. It may have a method `see(scan)`, too: called with
+    each depth frame, a `Scan`, before it is segmented, for a localizer that reads the picture
+    itself.
+    """
 
     def correct(self, body: BodyState, planes: Planes, view: FloorView, /) -> None:
         """Learn from a segmented frame, before the map takes it in."""
@@ -114,6 +146,10 @@ class Planner(Protocol):
     The stairs are there to be kept away from, or to be chosen from by a behaviour of the user's:
     every leg of the path that is returned is walked. It may have a method `forget()`, too, called
     before the next `plan` when the robot found itself elsewhere than it had believed.
+
+    A flat top that the camera sees from above is floor with a height, and no obstacle.
+    `view.passable(z, rise, radius)` tells where a robot may be that stands at height z, and
+    `view.clearance()` how far what blocks is; `Setup.robot["body"]["radius"]` is its own.
     """
 
     def plan(self, view: FloorView, stairs: Staircase, start: Pose, goal: Goal, /) -> Plan:

@@ -6,6 +6,7 @@ mod planner;
 mod segmenter;
 mod world_model;
 
+use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -14,7 +15,7 @@ pub(crate) use behaviour::behaviour;
 pub(crate) use localizer::localizer;
 pub(crate) use planner::planner;
 pub(crate) use segmenter::segmenter;
-pub(crate) use world_model::world_model;
+pub(crate) use world_model::{read_view, world_model};
 
 /// The sentence of a Python exception, with its type.
 fn sentence(error: &PyErr) -> String {
@@ -51,4 +52,40 @@ fn check_within(what: &str, values: impl IntoIterator<Item = f64>, most: f64) ->
             "{what} must be finite and within {most}, got {value:?}"
         ))),
     }
+}
+
+/// Reads an attribute of what a part of the user's returned. What is missing or of another type is told by its name, with what is
+/// `wanted` there.
+fn attribute<'py, T: FromPyObjectOwned<'py>>(
+    answer: &Bound<'py, PyAny>,
+    (of, name): (&str, &str),
+    wanted: &str,
+) -> PyResult<T> {
+    let Some(found) = answer.getattr_opt(name)? else {
+        let kind = answer.get_type().name()?;
+        return Err(PyValueError::new_err(format!(
+            "{of}.{name} is missing: found {kind}; wanted {wanted}"
+        )));
+    };
+    found
+        .extract()
+        .map_err(|_| unlike(&format!("{of}.{name}"), &found, wanted))
+}
+
+/// The error for a value of another type than is wanted: with its type, and that of its elements and its shape if it is an array.
+fn unlike(name: &str, found: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
+    let text = |key| {
+        found
+            .getattr(key)
+            .and_then(|value| value.str())
+            .map(|text| text.to_string())
+    };
+    let is = match (text("dtype"), text("shape")) {
+        (Ok(dtype), Ok(shape)) => format!("{dtype} {shape}"),
+        _ => found.get_type().name().map_or_else(
+            |_| "something without a type".to_owned(),
+            |kind| kind.to_string(),
+        ),
+    };
+    PyValueError::new_err(format!("{name} must be {wanted}, got {is}"))
 }

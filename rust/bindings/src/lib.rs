@@ -9,6 +9,7 @@ mod depth_camera;
 mod depth_errors;
 mod distance;
 mod error;
+mod floor_view;
 mod footsteps;
 mod landmarks;
 mod learners;
@@ -34,6 +35,7 @@ mod stairs;
 mod topology;
 mod truth;
 mod walker;
+mod ways;
 mod world_model;
 
 use pyo3::prelude::*;
@@ -72,7 +74,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<scan_matching::PyScanSlam>()?;
     module.add_class::<topology::PyVoronoiGraph>()?;
     module.add_class::<products::PyBodyState>()?;
-    module.add_class::<products::PyFloorView>()?;
+    module.add_class::<floor_view::PyFloorView>()?;
     module.add_class::<products::PyPlanes>()?;
     module.add_class::<range_map::PyRangeMap>()?;
     module.add_class::<ranges::PyRangeField>()?;
@@ -92,6 +94,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<truth::PySurfaces>()?;
     module.add_class::<truth::PyTrueStance>()?;
     module.add_class::<walker::PyWalker>()?;
+    module.add_class::<ways::PyWays>()?;
     module.add_class::<world_model::PyOccupancyGrid>()?;
     module.add_class::<world_model::PyWorldModel>()
 }

@@ -10,11 +10,12 @@ use sensing::{Frame, Observation};
 
 use crate::components;
 use crate::error::{bad_setting, failed, parse, run, unreadable};
+use crate::floor_view::{Floor, PyFloorView, floor};
 use crate::footsteps::{Ground, ground, planned_as_dict};
 use crate::mesh_files::{MeshArrays, surface_arrays};
 use crate::observation;
 use crate::octree::{PyOctree, Rows, rows};
-use crate::products::{FlatPose, Floor, PyFloorView, PyPlanes, flat, floor, matrix};
+use crate::products::{FlatPose, PyPlanes, flat, matrix};
 use crate::stairs::{FlatFootstep, PyClimb, PyStaircase, PyStepping, flat_footsteps};
 
 /// Places, headings and weights.

@@ -1,8 +1,7 @@
 //! The core's products as Python sees them: read-only, arrays moved out or copied once.
 
 use geometry::Pose;
-use mapping::Surface;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, ToPyArray};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, ToPyArray};
 use proprioception::BodyState;
 use pyo3::prelude::*;
 
@@ -111,103 +110,5 @@ impl PyPlanes {
             )
         };
         self.0.regions.iter().map(row).collect()
-    }
-}
-
-/// The floor, obstacle and unknown view of the map.
-#[pyclass(frozen, name = "FloorView", module = "treadwell._core")]
-pub(crate) struct PyFloorView(pub(crate) mapping::FloorView);
-
-/// Corner, side of a cell, kinds, heights and sightings of a view: see the properties of `FloorView`.
-pub(crate) type Floor<'py> = (
-    (f64, f64),
-    f64,
-    Bound<'py, PyArray2<u8>>,
-    Bound<'py, PyArray2<f32>>,
-    Bound<'py, PyArray2<u16>>,
-);
-
-/// What `FloorView` has but for gradients, at once and without a copy of the view.
-pub(crate) fn floor<'py>(py: Python<'py>, view: &mapping::FloorView) -> PyResult<Floor<'py>> {
-    let origin = view.lattice.origin_m.into();
-    let arrays = (kinds(py, view)?, heights(py, view)?, sightings(py, view)?);
-    Ok((origin, view.lattice.cell_m, arrays.0, arrays.1, arrays.2))
-}
-
-fn shape(view: &mapping::FloorView) -> [usize; 2] {
-    [view.cells.rows(), view.cells.cols()]
-}
-
-fn kinds<'py>(py: Python<'py>, view: &mapping::FloorView) -> PyResult<Bound<'py, PyArray2<u8>>> {
-    let kind = |surface: &Surface| match surface {
-        Surface::Unknown => 0,
-        Surface::Floor(_) => 1,
-        Surface::Obstacle(_) => 2,
-    };
-    let flat: Vec<u8> = view.shown().cells.values().iter().map(kind).collect();
-    flat.into_pyarray(py).reshape(shape(view))
-}
-
-fn heights<'py>(py: Python<'py>, view: &mapping::FloorView) -> PyResult<Bound<'py, PyArray2<f32>>> {
-    let height = |surface: &Surface| match *surface {
-        Surface::Unknown => f32::NAN,
-        Surface::Floor(height) | Surface::Obstacle(height) => height,
-    };
-    let flat: Vec<f32> = view.shown().cells.values().iter().map(height).collect();
-    flat.into_pyarray(py).reshape(shape(view))
-}
-
-fn sightings<'py>(
-    py: Python<'py>,
-    view: &mapping::FloorView,
-) -> PyResult<Bound<'py, PyArray2<u16>>> {
-    view.sightings.values().to_pyarray(py).reshape(shape(view))
-}
-
-#[pymethods]
-impl PyFloorView {
-    /// (2,) m: lower-left corner of cell (0, 0) in the map frame.
-    #[getter]
-    fn origin(&self) -> (f64, f64) {
-        self.0.lattice.origin_m.into()
-    }
-
-    /// Side of a cell, m.
-    #[getter]
-    fn cell(&self) -> f64 {
-        self.0.lattice.cell_m
-    }
-
-    /// (rows, cols) uint8: 0 unknown, 1 floor, 2 obstacle; rows along +y.
-    #[getter]
-    fn kind<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u8>>> {
-        kinds(py, &self.0)
-    }
-
-    /// (rows, cols) float32: height in the map frame, m; NaN where unknown.
-    #[getter]
-    fn height<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        heights(py, &self.0)
-    }
-
-    /// (rows, cols, 2) float32: how much each cell's floor rises per metre along x and y of the map; 0 where it is level.
-    #[getter]
-    fn gradient<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
-        let [rows, cols] = shape(&self.0);
-        let flat: Vec<f32> = self
-            .0
-            .gradients
-            .values()
-            .iter()
-            .flatten()
-            .copied()
-            .collect();
-        flat.into_pyarray(py).reshape([rows, cols, 2])
-    }
-
-    /// (rows, cols) uint16: in how many frames each cell was seen as floor.
-    #[getter]
-    fn sightings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u16>>> {
-        sightings(py, &self.0)
     }
 }

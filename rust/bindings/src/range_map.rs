@@ -7,12 +7,16 @@ use pilot::{PilotError, RangeMap, SightNeeds};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use sensing::{PinholeCamera, RangeSensor};
+use stairs::Staircase;
 
+use crate::components;
 use crate::error::{bad_setting, failed, parse, run};
+use crate::floor_view::PyFloorView;
 use crate::mesh_files::{MeshArrays, surface_arrays};
 use crate::octree::{Rows, rows};
 use crate::pose::rigid;
-use crate::products::PyFloorView;
+use crate::products::PyPlanes;
+use crate::stairs::PyStaircase;
 
 /// Keeps a map of what range sensors of anyone's saw, as the pilot's world model of that name does. Their poses are trusted.
 #[pyclass(name = "RangeMap", module = "treadwell._core")]
@@ -25,11 +29,22 @@ pub(crate) struct PyRangeMap {
 
 #[pymethods]
 impl PyRangeMap {
-    /// A world model of the list. `settings` is JSON, a table a name; `headroom` is the robot's height, m, where there is a robot.
+    /// A world model of the list, or `model`, one of the user's. `settings` is JSON, a table a name; `headroom` is the robot's height, m,
+    /// where there is a robot.
     #[new]
-    #[pyo3(signature = (name, *, settings="{}", headroom=None))]
-    fn new(py: Python<'_>, name: &str, settings: &str, headroom: Option<f64>) -> PyResult<Self> {
-        let made = RangeMap::new(name, parse(py, settings)?, headroom);
+    #[pyo3(signature = (name, *, settings="{}", headroom=None, model=None))]
+    fn new(
+        py: Python<'_>,
+        name: &str,
+        settings: &str,
+        headroom: Option<f64>,
+        model: Option<Py<PyAny>>,
+    ) -> PyResult<Self> {
+        let tables = parse(py, settings)?;
+        let made = match model {
+            Some(object) => Ok(RangeMap::of(components::world_model(object), tables)),
+            None => RangeMap::new(name, tables, headroom),
+        };
         Ok(Self {
             map: made.map_err(|error| bad_setting(py, &error))?,
             seconds: 0.0,
@@ -43,8 +58,8 @@ impl PyRangeMap {
     }
 
     /// Gives the pictures a camera: columns and rows, focal lengths and axis along them, pixels. Surfaces are found by the segmenter of
-    /// that name, in blocks of `pool` x `pool` pixels, as precisely as eyes `baseline` m apart see them.
-    #[pyo3(signature = (size, focal, centre, *, segmenter, pool, baseline))]
+    /// that name, in blocks of `pool` x `pool` pixels, as precisely as eyes `baseline` m apart see them. With `stairs`, stairs are looked for.
+    #[pyo3(signature = (size, focal, centre, *, segmenter, pool, baseline, stairs=false))]
     #[expect(clippy::too_many_arguments, reason = "one argument of Python's each")]
     fn set_camera(
         &mut self,
@@ -55,6 +70,7 @@ impl PyRangeMap {
         segmenter: &str,
         pool: usize,
         baseline: f64,
+        stairs: bool,
     ) -> PyResult<()> {
         let positive = |value: &f64| value.is_finite() && *value > 0.0;
         let axis = centre.iter().all(|px| px.is_finite());
@@ -71,6 +87,7 @@ impl PyRangeMap {
             segmenter,
             pool,
             baseline_m: baseline,
+            stairs,
         };
         let set = self.map.set_camera(camera, needs);
         set.map_err(|error| bad_setting(py, &error))
@@ -123,6 +140,16 @@ impl PyRangeMap {
         PyFloorView(self.map.model.view().clone())
     }
 
+    /// What was found in the last picture; None before it, and of a world model that has no use for surfaces.
+    fn planes(&self) -> Option<PyPlanes> {
+        self.map.planes().cloned().map(PyPlanes)
+    }
+
+    /// The stairs that were seen; None where they are not looked for.
+    fn staircase(&self) -> Option<PyStaircase> {
+        self.map.staircase().map(PyStaircase::from)
+    }
+
     /// (n, 3) m and (n,) m: middles and sides of the cubes that were seen to be occupied; empty of a world model that keeps none.
     fn occupied<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
         let voxels = self.map.model.occupied();
@@ -137,6 +164,11 @@ impl PyRangeMap {
 }
 
 impl PyRangeMap {
+    /// The stairs that were seen, where they are looked for.
+    pub(crate) fn seen_stairs(&self) -> Option<&Staircase> {
+        self.map.staircase()
+    }
+
     fn timed(
         &mut self,
         py: Python<'_>,

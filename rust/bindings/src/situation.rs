@@ -6,7 +6,8 @@ use numpy::{PyArray2, PyArrayMethods, ToPyArray};
 use planning::Goal;
 use pyo3::prelude::*;
 
-use crate::products::{FlatPose, PyFloorView, flat, matrix};
+use crate::floor_view::PyFloorView;
+use crate::products::{FlatPose, flat, matrix};
 use crate::stairs::{PyClimb, PyStaircase, PyStepping};
 
 /// Where to go: any place inside the disc on which the robot can stand.
@@ -18,6 +19,19 @@ pub(crate) struct PyGoal {
     radius: f64,
     /// Height of the level, m, or None.
     height: Option<f64>,
+}
+
+#[pymethods]
+impl PyGoal {
+    #[new]
+    #[pyo3(signature = (position, radius, height=None))]
+    const fn new(position: (f64, f64), radius: f64, height: Option<f64>) -> Self {
+        Self {
+            position,
+            radius,
+            height,
+        }
+    }
 }
 
 impl From<&Goal> for PyGoal {

@@ -92,6 +92,18 @@ pub(crate) struct PyStaircase {
     stairs: Vec<PyStair>,
 }
 
+#[pymethods]
+impl PyStaircase {
+    /// No stairs.
+    #[new]
+    const fn new() -> Self {
+        Self {
+            frames: 0,
+            stairs: Vec::new(),
+        }
+    }
+}
+
 impl From<&Staircase> for PyStaircase {
     fn from(staircase: &Staircase) -> Self {
         Self {

@@ -15,8 +15,9 @@ use settings::Table as _;
 use volume::{OccupancyGrid, Picture, Placement, ProbabilityTable, Ray, Size};
 
 use crate::error::{bad_setting, failed, parse, run};
+use crate::floor_view::PyFloorView;
 use crate::pose::rigid;
-use crate::products::{FlatPose, PyFloorView, PyPlanes};
+use crate::products::{FlatPose, PyPlanes};
 
 /// Keeps a map of the planes of frames, as the pilot's world model of that name does.
 #[pyclass(name = "WorldModel", module = "treadwell._core")]

@@ -3,6 +3,7 @@
 use geometry::{Map, Odometry, Pose, Robot};
 use mapping::FloorView;
 use segmentation::Planes;
+use sensing::Scan;
 
 use proprioception::BodyState;
 
@@ -40,6 +41,11 @@ pub struct Guess {
 
 /// Keeps the robot's pose in the map.
 pub trait Localizer: Send + Sync {
+    /// Called with each depth frame before it is segmented, for a localizer that reads the picture itself.
+    fn see(&mut self, _scan: &Scan) -> Result<(), LocalizerError> {
+        Ok(())
+    }
+
     /// Called when a depth frame was segmented, before the map takes it in; `body` is the body state at the exposure.
     fn correct(
         &mut self,

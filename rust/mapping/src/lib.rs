@@ -15,6 +15,7 @@ mod occupancy_2d;
 mod overlay;
 mod part;
 mod points;
+mod room;
 pub mod surface;
 mod two_maps;
 

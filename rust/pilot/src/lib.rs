@@ -14,6 +14,7 @@ mod tables;
 mod tick;
 mod timing;
 mod watch;
+mod ways;
 
 pub use error::PilotError;
 pub use parts::{
@@ -27,3 +28,4 @@ pub use step_limits::step_limits;
 pub use tables::tables;
 pub use tick::{Pilot, Tick};
 pub use timing::{STAGES, Timing};
+pub use ways::Ways;

@@ -135,7 +135,10 @@ impl Perception {
         let _own_pixels =
             self.self_filter
                 .mask(&mut self.scan, &body_then.links, &torso_from_camera);
-        let predicted = timing.measure(Stage::Localize, || localizer.estimate(body_then))?;
+        let predicted = timing.measure(Stage::Localize, || {
+            localizer.see(&self.scan)?;
+            localizer.estimate(body_then)
+        })?;
         timing.measure(Stage::Segment, || {
             let (view, seen_often) = (self.world_model.view(), self.tuning.seen_often);
             let remembered = remembered(view, &predicted.map_from_robot, seen_often);

@@ -5,6 +5,7 @@ use mapping::{WorldModel, WorldModelNeeds};
 use segmentation::{Planes, Segmenter, SegmenterNeeds};
 use sensing::{Frame, PinholeCamera, RangeSensor, Scan, ScanConfig};
 use settings::{Tables, read};
+use stairs::{Recognizer, Staircase};
 
 use crate::{PilotError, SEGMENTERS, WORLD_MODELS};
 
@@ -16,6 +17,28 @@ struct SurfaceSight {
     segmenter: Box<dyn Segmenter>,
     scan: Scan,
     frame: Frame,
+    /// What it saw in the last picture.
+    planes: Planes,
+    recognizer: Option<Recognizer>,
+}
+
+impl SurfaceSight {
+    /// Finds the surfaces of a picture.
+    fn look(
+        &mut self,
+        depths_m: &[f32],
+        robot_from_camera: Pose<Robot, Camera>,
+    ) -> Result<(), PilotError> {
+        for (slot, pixel) in self.frame.depth_m.iter_mut().zip(&self.pixels) {
+            let depth_m = pixel.and_then(|pixel| depths_m.get(pixel as usize));
+            *slot = depth_m.copied().unwrap_or(f32::NAN);
+        }
+        self.scan.read(&self.frame, robot_from_camera)?;
+        self.segmenter.segment(&self.scan, &mut self.planes)?;
+        // The pose is known: the ground need neither be found nor followed.
+        self.planes.reliable = true;
+        Ok(())
+    }
 }
 
 /// How surfaces are found in pictures.
@@ -27,6 +50,8 @@ pub struct SightNeeds<'a> {
     pub pool: usize,
     /// Depths are taken to be as precise as eyes so far apart see them, m.
     pub baseline_m: f64,
+    /// Whether stairs are looked for.
+    pub stairs: bool,
 }
 
 /// Keeps a map of frames as the pilot's world model of that name does. The poses of the frames are trusted.
@@ -46,11 +71,16 @@ impl RangeMap {
             headroom_m,
         };
         let model = WORLD_MODELS.find(name)?(&needs)?;
-        Ok(Self {
+        Ok(Self::of(model, tables))
+    }
+
+    /// A map that a world model keeps which is in no list.
+    pub fn of(model: Box<dyn WorldModel>, tables: Tables) -> Self {
+        Self {
             model,
             tables,
             sight: None,
-        })
+        }
     }
 
     /// Gives the pictures a camera.
@@ -65,11 +95,18 @@ impl RangeMap {
             tables: &self.tables,
             camera: scan.camera,
         };
+        let recognizer = (needs.stairs)
+            .then(|| -> Result<_, PilotError> {
+                Ok(Recognizer::new(read(&self.tables, "stairs")?, scan.camera)?)
+            })
+            .transpose()?;
         let [width, height] = camera.size_px;
         self.sight = Some(SurfaceSight {
             camera,
             pixels: camera.centred_pixels(),
             segmenter: SEGMENTERS.find(needs.segmenter)?(&made)?,
+            planes: Planes::new(scan.disparity_px.len()),
+            recognizer,
             scan,
             frame: Frame {
                 exposure_ns: 0,
@@ -87,6 +124,17 @@ impl RangeMap {
         self.sight.as_ref().map(|sight| &sight.camera)
     }
 
+    /// What was found in the last picture; `None` before it, and of a map that has no use for surfaces.
+    pub fn planes(&self) -> Option<&Planes> {
+        self.sight.as_ref().map(|sight| &sight.planes)
+    }
+
+    /// The stairs that are seen or remembered, where they are looked for.
+    pub fn staircase(&self) -> Option<&Staircase> {
+        let recognizer = self.sight.as_ref()?.recognizer.as_ref();
+        recognizer.map(|recognizer| &recognizer.staircase)
+    }
+
     /// Takes in depths along the axis of the camera that was given, m, row by row, NaN for not seen; `ground_m` is how high the ground
     /// below the camera is. Whether they were used: not without a camera.
     pub fn insert_depths(
@@ -98,23 +146,22 @@ impl RangeMap {
         let Some(sight) = &mut self.sight else {
             return Ok(false);
         };
-        if !self.model.needs_surfaces() {
-            let sensor = RangeSensor::Picture(sight.camera);
-            let points: Vec<_> = sight.camera.points(depths_m.iter().copied()).collect();
-            return self.insert_points(&points, sensor, map_from_camera, ground_m);
-        }
         let forward = map_from_camera.inner.rotation * nalgebra::Vector3::z();
         let (map_from_robot, robot_from_camera) = standing(map_from_camera, forward, ground_m);
-        for (slot, pixel) in sight.frame.depth_m.iter_mut().zip(&sight.pixels) {
-            let depth_m = pixel.and_then(|pixel| depths_m.get(pixel as usize));
-            *slot = depth_m.copied().unwrap_or(f32::NAN);
+        let surfaces = self.model.needs_surfaces();
+        if surfaces || sight.recognizer.is_some() {
+            sight.look(depths_m, robot_from_camera)?;
         }
-        sight.scan.read(&sight.frame, robot_from_camera)?;
-        let mut planes = Planes::new(sight.scan.disparity_px.len());
-        sight.segmenter.segment(&sight.scan, &mut planes)?;
-        // The pose is known: the ground need neither be found nor followed.
-        planes.reliable = true;
-        Ok(self.model.insert(&planes, &map_from_robot)?.used)
+        if let Some(recognizer) = &mut sight.recognizer {
+            recognizer.leave_slopes(self.model.view());
+            let _ = recognizer.update(&sight.scan, &sight.planes, &map_from_robot, 0)?;
+        }
+        if surfaces {
+            return Ok(self.model.insert(&sight.planes, &map_from_robot)?.used);
+        }
+        let sensor = RangeSensor::Picture(sight.camera);
+        let points: Vec<_> = sight.camera.points(depths_m.iter().copied()).collect();
+        self.insert_points(&points, sensor, map_from_camera, ground_m)
     }
 
     /// Takes in points of the sensor's frame, m, all seen from its origin; NaN for not seen. `ground_m` is how high the ground below the
@@ -188,6 +235,7 @@ mod tests {
             segmenter: "scan_line",
             pool: 1,
             baseline_m: 0.075,
+            stairs: false,
         };
         let depths = vec![1.5_f32; 40 * 30];
         let points: Vec<_> = camera.points(depths.iter().copied()).collect();

@@ -14,7 +14,6 @@ use sensing::Intrinsics;
 use settings::{Table, read};
 use stairs::{Feet, Recognizer};
 use volume::octree::Octree;
-use walking::Walker;
 
 use crate::step_limits::step_limits;
 use crate::{BEHAVIOURS, LOCALIZERS, PLANNERS, PilotError, SEGMENTERS, Settings, WORLD_MODELS};
@@ -118,11 +117,10 @@ pub(crate) fn known_map(
     Ok(told.map(made).transpose()?)
 }
 
-/// The body's feet, side by side as the walker stands on them.
-pub(crate) fn feet(body: &Body, walker: &Walker) -> Feet {
+/// The body's feet, side by side as the walker stands on them, their middles so far apart.
+pub(crate) fn feet(body: &Body, stance_m: f64) -> Feet {
     let legs = &body.description().legs;
     let [left, right] = Side::BOTH.map(|side| &legs.get(side).sole);
-    let stance_m = walker.stance_width_m();
     Feet {
         length_m: left.length.min(right.length),
         pair_width_m: stance_m + 0.5 * (left.width + right.width),

@@ -117,7 +117,7 @@ impl Pilot {
         let making = Making {
             settings,
             body: &body,
-            feet: registry::feet(&body, &walker),
+            feet: registry::feet(&body, walker.stance_width_m()),
             camera: scan.camera,
             known_map: known_map.as_ref(),
         };

@@ -80,6 +80,16 @@ pub enum PathEnd {
 }
 
 impl PathEnd {
+    /// As it is written in results.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Goal => "goal",
+            Self::Border => "border",
+            Self::Hope => "hope",
+            Self::Look => "look",
+        }
+    }
+
     /// Whether everything up to there is as it should be.
     pub const fn is_certain(self) -> bool {
         matches!(self, Self::Goal | Self::Border)

@@ -14,7 +14,7 @@ use crate::search::steps::ANYWHERE;
 use crate::search::{Route, Search};
 use crate::steep_slopes::{first_too_steep, steep_way, too_steep};
 use crate::tuning::RefusalTuning;
-use crate::{Goal, NoWay, Refusal};
+use crate::{AStarConfig, Goal, NoWay, Refusal};
 
 /// What decides on a word.
 type Words<'a> = (&'a ClimbingConfig, &'a RefusalTuning);
@@ -32,6 +32,13 @@ pub(crate) fn first_limit(
     let mut limits = strides.filter_map(|(before, stride)| Some((stride.limit?, before)));
     let (limit, before) = limits.next()?;
     Some((unfit(words, limit), before))
+}
+
+impl NoWay {
+    /// The word and the sentence for a stair that is not stepped on.
+    pub fn unfit(climbing: &ClimbingConfig, config: &AStarConfig, limit: Unfit) -> Self {
+        unfit((climbing, &config.tuning.refusal), limit)
+    }
 }
 
 /// The word and sentence for a step that is not taken.

@@ -8,7 +8,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::intern;
 use pyo3::prelude::*;
 
-use super::{check_within, sentence};
+use super::{attribute, check_within, sentence};
 use crate::situation::PySituation;
 use crate::stairs::{FlatFootstep, footstep};
 
@@ -18,6 +18,7 @@ struct PythonBehaviour {
     states: Vec<&'static str>,
 }
 
+const OF: &str = "next()";
 const MOST_STATES: usize = 256;
 /// Characters of a state's name.
 const LONGEST_NAME: usize = 100;
@@ -59,10 +60,11 @@ impl PythonBehaviour {
             .object
             .bind(py)
             .call_method1(intern!(py, "next"), argument)?;
-        let [pan_rad, down_rad]: [f64; 2] = answer.getattr(intern!(py, "gaze"))?.extract()?;
+        let gaze = attribute(&answer, (OF, "gaze"), "(pan, down), rad")?;
+        let [pan_rad, down_rad]: [f64; 2] = gaze;
         check_within("gaze", [pan_rad, down_rad], LARGEST)?;
         let motion = read_motion(&answer)?;
-        let outcome: Option<String> = answer.getattr(intern!(py, "outcome"))?.extract()?;
+        let outcome: Option<String> = attribute(&answer, (OF, "outcome"), "str or None")?;
         let outcome = outcome.map(|text| match text.as_str() {
             "goal_reached" => Outcome::GoalReached,
             _ => Outcome::Refused(text),
@@ -73,8 +75,8 @@ impl PythonBehaviour {
                 gaze: Gaze { pan_rad, down_rad },
                 ..Command::default()
             },
-            state: self.state(answer.getattr(intern!(py, "state"))?.extract()?)?,
-            goal_passed: answer.getattr(intern!(py, "goal_passed"))?.extract()?,
+            state: self.state(attribute(&answer, (OF, "state"), "str")?)?,
+            goal_passed: attribute(&answer, (OF, "goal_passed"), "bool")?,
             outcome,
         })
     }
@@ -82,16 +84,17 @@ impl PythonBehaviour {
 
 /// What the feet shall do: walk with a velocity, take listed steps, or stand.
 fn read_motion(answer: &Bound<'_, PyAny>) -> PyResult<Motion> {
-    let py = answer.py();
-    let velocity: Option<[f64; 3]> = answer.getattr(intern!(py, "velocity"))?.extract()?;
-    let listed = answer.getattr(intern!(py, "footsteps"))?;
+    let velocity: Option<[f64; 3]> =
+        attribute(answer, (OF, "velocity"), "(m/s, m/s, rad/s) or None")?;
+    let wanted = "a sequence of Footstep";
+    let listed: Bound<'_, PyAny> = attribute(answer, (OF, "footsteps"), wanted)?;
     let count = listed.len()?;
     if count > MOST_FOOTSTEPS {
         return Err(PyValueError::new_err(format!(
             "there may be {MOST_FOOTSTEPS} footsteps at most, got {count}"
         )));
     }
-    let listed: Vec<FlatFootstep> = listed.extract()?;
+    let listed: Vec<FlatFootstep> = attribute(answer, (OF, "footsteps"), wanted)?;
     if !listed.is_empty() {
         return match velocity {
             None => listed

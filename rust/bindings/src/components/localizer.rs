@@ -7,31 +7,54 @@ use proprioception::BodyState;
 use pyo3::intern;
 use pyo3::prelude::*;
 use segmentation::Planes;
+use sensing::Scan;
 
-use super::{FARTHEST_M, check_within, sentence};
-use crate::products::{PyBodyState, PyFloorView, PyPlanes};
+use super::{FARTHEST_M, check_within, sentence, unlike};
+use crate::floor_view::PyFloorView;
+use crate::products::{PyBodyState, PyPlanes};
+use crate::situation::PyScan;
 
-struct PythonLocalizer(Py<PyAny>);
+struct PythonLocalizer {
+    object: Py<PyAny>,
+    /// Whether it has a method `see`: a scan is copied for nobody else.
+    sees: bool,
+}
 
 /// Wraps an object with the methods of `treadwell.protocols.Localizer`.
 pub(crate) fn localizer(object: Py<PyAny>) -> Box<dyn Localizer> {
-    Box::new(PythonLocalizer(object))
+    let sees = Python::attach(|py| object.bind(py).hasattr(intern!(py, "see")));
+    Box::new(PythonLocalizer {
+        sees: sees.unwrap_or(false),
+        object,
+    })
 }
 
 impl PythonLocalizer {
     /// Place x, y and z, m, and yaw, rad.
     fn pose(&self, py: Python<'_>, body: &BodyState) -> PyResult<[f64; 4]> {
         let argument = (PyBodyState(body.clone()),);
-        let pose: [f64; 4] = self
-            .0
-            .call_method1(py, intern!(py, "estimate"), argument)?
-            .extract(py)?;
+        let object = self.object.bind(py);
+        let answer = object.call_method1(intern!(py, "estimate"), argument)?;
+        let pose: [f64; 4] = (answer.extract())
+            .map_err(|_| unlike("estimate()", &answer, "(x m, y m, z m, yaw rad)"))?;
         check_within("estimate", pose, FARTHEST_M)?;
         Ok(pose)
     }
 }
 
 impl Localizer for PythonLocalizer {
+    fn see(&mut self, scan: &Scan) -> Result<(), LocalizerError> {
+        if !self.sees {
+            return Ok(());
+        }
+        Python::attach(|py| {
+            self.object
+                .call_method1(py, intern!(py, "see"), (PyScan(scan.clone()),))
+                .map(|_| ())
+                .map_err(|error| LocalizerError::Failed(sentence(&error)))
+        })
+    }
+
     fn correct(
         &mut self,
         body: &BodyState,
@@ -44,7 +67,7 @@ impl Localizer for PythonLocalizer {
                 PyPlanes(planes.clone()),
                 PyFloorView(view.clone()),
             );
-            self.0
+            self.object
                 .call_method1(py, intern!(py, "correct"), arguments)
                 .map(|_| ())
                 .map_err(|error| LocalizerError::Failed(sentence(&error)))

@@ -9,8 +9,9 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use stairs::Staircase;
 
-use super::{FARTHEST_M, check_within, forget_if, sentence};
-use crate::products::{PyFloorView, flat};
+use super::{FARTHEST_M, attribute, check_within, forget_if, sentence};
+use crate::floor_view::PyFloorView;
+use crate::products::flat;
 use crate::situation::PyGoal;
 use crate::stairs::PyStaircase;
 
@@ -49,16 +50,16 @@ impl PythonPlanner {
         let object = self.object.bind(py);
         forget_if(&mut self.elsewhere, object)?;
         let plan = object.call_method1(intern!(py, "plan"), arguments)?;
-        let replanned = plan.getattr(intern!(py, "replanned"))?.extract()?;
-        let path = plan.getattr(intern!(py, "path"))?;
-        if path.is_none() {
-            let sentence: String = plan.getattr(intern!(py, "reason"))?.extract()?;
+        let replanned = attribute(&plan, ("plan()", "replanned"), "bool")?;
+        let path: Option<PyReadonlyArray2<'_, f64>> =
+            attribute(&plan, ("plan()", "path"), "float64 (n, 2) or None")?;
+        let Some(points) = path else {
+            let sentence: String = attribute(&plan, ("plan()", "reason"), "str")?;
             return Ok(Plan {
                 way: Err(NoWay::new(Refusal::NoPath, sentence)),
                 replanned,
             });
-        }
-        let points: PyReadonlyArray2<'_, f64> = path.extract()?;
+        };
         let points = points.as_array();
         if points.ncols() != 2 || points.nrows() == 0 {
             return Err(PyValueError::new_err(format!(

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use segmentation::{PlaneRegion, Planes, SegmentError, Segmenter};
 use sensing::Scan;
 
-use super::{FARTHEST_M, check_within, sentence};
+use super::{FARTHEST_M, attribute, check_within, sentence};
 use crate::pose::rigid;
 use crate::situation::PyScan;
 
@@ -35,13 +35,13 @@ impl Segmenter for PythonSegmenter {
 }
 
 fn read_segmentation(answer: &Bound<'_, PyAny>, scan: &Scan, planes: &mut Planes) -> PyResult<()> {
-    let py = answer.py();
-    let labels: PyReadonlyArray1<'_, u16> = answer.getattr(intern!(py, "labels"))?.extract()?;
-    let heights: Vec<Option<f64>> = answer.getattr(intern!(py, "floor_heights"))?.extract()?;
-    let pose: PyReadonlyArray2<'_, f64> = answer
-        .getattr(intern!(py, "robot_from_camera"))?
-        .extract()?;
-    let ground: Option<usize> = answer.getattr(intern!(py, "ground"))?.extract()?;
+    const OF: &str = "segment()";
+    let labels: PyReadonlyArray1<'_, u16> = attribute(answer, (OF, "labels"), "uint16 (pixels,)")?;
+    let heights: Vec<Option<f64>> =
+        attribute(answer, (OF, "floor_heights"), "a list of float m or None")?;
+    let pose: PyReadonlyArray2<'_, f64> =
+        attribute(answer, (OF, "robot_from_camera"), "float64 (4, 4)")?;
+    let ground: Option<usize> = attribute(answer, (OF, "ground"), "int or None")?;
     let labels = labels.as_array();
     if labels.len() != planes.labels.len() {
         let (expected, found) = (planes.labels.len(), labels.len());
@@ -66,7 +66,7 @@ fn read_segmentation(answer: &Bound<'_, PyAny>, scan: &Scan, planes: &mut Planes
     planes.robot_from_camera = rigid(&pose)?;
     planes.exposure_ns = scan.exposure_ns;
     planes.ground = ground.filter(|&ground| ground < heights.len());
-    planes.reliable = answer.getattr(intern!(py, "reliable"))?.extract()?;
+    planes.reliable = attribute(answer, (OF, "reliable"), "bool")?;
     for (slot, label) in planes.labels.iter_mut().zip(labels) {
         *slot = *label;
     }

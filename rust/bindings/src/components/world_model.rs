@@ -10,7 +10,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use segmentation::Planes;
 
-use super::{FARTHEST_M, check_within, forget_if, sentence};
+use super::{FARTHEST_M, attribute, check_within, forget_if, sentence, unlike};
 use crate::products::{PyPlanes, flat};
 
 struct PythonWorldModel {
@@ -50,6 +50,7 @@ impl PythonWorldModel {
         let used = object.call_method1(intern!(py, "insert"), (PyPlanes(planes.clone()), pose))?;
         read_view(&object.call_method0(intern!(py, "view"))?, &mut self.view)?;
         used.extract()
+            .map_err(|_| unlike("insert()", &used, "bool"))
     }
 }
 
@@ -59,9 +60,8 @@ const MOST_CELLS: usize = 4_000_000;
 const CELL_SIDES_M: RangeInclusive<f64> = 0.001..=10.0;
 
 fn read_lattice(object: &Bound<'_, PyAny>) -> PyResult<Lattice> {
-    let py = object.py();
-    let origin_m: [f64; 2] = object.getattr(intern!(py, "origin"))?.extract()?;
-    let cell_m: f64 = object.getattr(intern!(py, "cell"))?.extract()?;
+    let origin_m: [f64; 2] = attribute(object, ("view()", "origin"), "(x, y), m")?;
+    let cell_m: f64 = attribute(object, ("view()", "cell"), "a float, m")?;
     check_within("origin", origin_m, FARTHEST_M)?;
     if !CELL_SIDES_M.contains(&cell_m) {
         return Err(PyValueError::new_err(format!(
@@ -73,10 +73,11 @@ fn read_lattice(object: &Bound<'_, PyAny>) -> PyResult<Lattice> {
     Ok(Lattice { origin_m, cell_m })
 }
 
-fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
-    let py = object.py();
-    let kind: PyReadonlyArray2<'_, u8> = object.getattr(intern!(py, "kind"))?.extract()?;
-    let height: PyReadonlyArray2<'_, f32> = object.getattr(intern!(py, "height"))?.extract()?;
+pub(crate) fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
+    let kind: PyReadonlyArray2<'_, u8> =
+        attribute(object, ("view()", "kind"), "uint8 (rows, cols)")?;
+    let height: PyReadonlyArray2<'_, f32> =
+        attribute(object, ("view()", "height"), "float32 (rows, cols)")?;
     let (kind, height) = (kind.as_array(), height.as_array());
     if kind.dim() != height.dim() {
         return Err(PyValueError::new_err(format!(
@@ -120,28 +121,26 @@ fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
 /// it knows is as good as what was seen often.
 fn read_sightings(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
     let counts = into.sightings.values_mut().iter_mut();
-    match object.getattr_opt(intern!(object.py(), "sightings"))? {
-        None => {
-            for (count, cell) in counts.zip(into.cells.values()) {
-                *count = match cell {
-                    Surface::Unknown => 0,
-                    Surface::Floor(_) | Surface::Obstacle(_) => u16::MAX,
-                };
-            }
+    if !object.hasattr(intern!(object.py(), "sightings"))? {
+        for (count, cell) in counts.zip(into.cells.values()) {
+            *count = match cell {
+                Surface::Unknown => 0,
+                Surface::Floor(_) | Surface::Obstacle(_) => u16::MAX,
+            };
         }
-        Some(found) => {
-            let found: PyReadonlyArray2<'_, u16> = found.extract()?;
-            let (found, shape) = (found.as_array(), (into.cells.rows(), into.cells.cols()));
-            if found.dim() != shape {
-                return Err(PyValueError::new_err(format!(
-                    "kind and sightings must have one shape, got {shape:?} and {:?}",
-                    found.dim()
-                )));
-            }
-            for (count, &found) in counts.zip(found) {
-                *count = found;
-            }
-        }
+        return Ok(());
+    }
+    let found: PyReadonlyArray2<'_, u16> =
+        attribute(object, ("view()", "sightings"), "uint16 (rows, cols)")?;
+    let (found, shape) = (found.as_array(), (into.cells.rows(), into.cells.cols()));
+    if found.dim() != shape {
+        return Err(PyValueError::new_err(format!(
+            "kind and sightings must have one shape, got {shape:?} and {:?}",
+            found.dim()
+        )));
+    }
+    for (count, &found) in counts.zip(found) {
+        *count = found;
     }
     Ok(())
 }
