@@ -20,6 +20,12 @@ LONGEST_FILE = 400
 SIMULATOR = {"simulated_body", "mujoco_step"}
 # Tested through what uses them, by the test named.
 TESTED_BY = {
+    "map_making.headroom": "test_map.py",
+    "mapping.camera": "test_mapping.py",
+    "mapping.checks": "test_mapping.py",
+    "mapping.stairs": "test_mapping.py",
+    "mapping.view": "test_mapping.py",
+    "mapping.ways": "test_mapping.py",
     "recording.sole_outlines": "test_map_picture.py",
     "recording.stair_outlines": "test_map_picture.py",
     "recording.step_shapes": "test_recording.py",

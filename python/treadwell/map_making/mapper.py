@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from treadwell._core import RangeMap
 from treadwell.errors import InputError
+from treadwell.map_making.headroom import headroom_of
 from treadwell.map_making.placing import Placing, ground_below, placing, sensed
 from treadwell.map_making.plan_topology import Topology
 from treadwell.map_making.plan_view import (
@@ -23,25 +24,13 @@ from treadwell.map_making.plan_view import (
     plan_view,
 )
 from treadwell.map_making.request import PICTURES, POINTS, MapRequest
-from treadwell.map_making.sizing import Sizing, sizing
+from treadwell.map_making.sizing import Sizing, pooled, sizing
 from treadwell.map_making.standing_out import StandingOut
 from treadwell.map_memory import MapMemory, RememberedMap
 from treadwell.map_result import MappedLines
 from treadwell.recording.mesh_file import SurfaceMesh
 from treadwell.sources.frame import Floats, RangeFrame, moved
 
-NEEDS_A_ROBOT: Final = {
-    "extended_elevation": "extended_elevation",
-    "multi_level": "multi_level",
-    "points": "points",
-    "mesh": "mesh",
-    "occupancy_2d": "depth_slice",
-}
-"""World model -> the table that says, or the robot does, how much room there must be."""
-_HEADROOM: Final = {"depth_slice": "high"}
-"""Table -> its key for that, where it is not `headroom`."""
-ROBOT: Final = "qrio"
-"""Whose height counts where a world model needs one and no robot is named."""
 NOTHING_SEEN: Final = "nothing was seen"
 NOT_TAKEN: Final = "the world model did not take it"
 
@@ -68,7 +57,7 @@ class Mapper:
         self.place: Placing = placing(
             request.data.up, first.world_from_sensor, self.sizes.cell or 1.0
         )
-        self.robot = request.robot
+        self.robot, headroom = headroom_of(self.world_model, self.sizes.parameters, request.robot)
         self.unused: Counter[str] = Counter()
         self.seconds: list[float] = []
         self._memory = MapMemory()
@@ -84,7 +73,7 @@ class Mapper:
         self._core = RangeMap(
             POINTS if self._plan else self.world_model,
             settings=json.dumps(self.sizes.parameters),
-            headroom=self._headroom(),
+            headroom=headroom,
         )
         self._camera: tuple[int, int] | None = None
         if self._core.needs_surfaces and first.layout == "cloud":
@@ -190,7 +179,7 @@ class Mapper:
             return
         self._camera = (camera.width, camera.height)
         data = self._request.data
-        pool = max(1, -(-camera.width // data.columns))
+        pool = pooled(camera, data.columns)
         self._core.set_camera(
             self._camera,
             (camera.fx, camera.fy),
@@ -221,17 +210,3 @@ class Mapper:
                 f"--world-model: found {named}; a map is made by the models that are built in"
             )
         return named
-
-    def _headroom(self) -> float | None:
-        """Return the robot's height, m, where one is named or the model needs one."""
-        table = NEEDS_A_ROBOT.get(self.world_model)
-        needed = table and _HEADROOM.get(table, "headroom") not in self.sizes.parameters.get(
-            table, {}
-        )
-        if self.robot is None and not needed:
-            return None
-        # Late: a map without a robot needs no MuJoCo.
-        from treadwell.robot.load import load_robot
-
-        self.robot = self.robot or ROBOT
-        return float(load_robot(self.robot).description()["body"]["height"])

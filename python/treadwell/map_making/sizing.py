@@ -7,7 +7,7 @@ import numpy as np
 
 from treadwell.map_making.placing import Placing, sensed
 from treadwell.reference.parameters import all_tables
-from treadwell.sources.frame import Floats, RangeFrame
+from treadwell.sources.frame import Floats, PinholeCamera, RangeFrame
 
 _TABLES: Final = {
     "fog": "fog",
@@ -100,6 +100,11 @@ def sizing(
             own[key] = value
             found.assumed[f"navigation.{table}.{key}"] = value
     return found
+
+
+def pooled(camera: PinholeCamera, columns: int) -> int:
+    """Return how many pixels a side are one, for a picture of so many columns at most."""
+    return max(1, -(-camera.width // columns))
 
 
 def _set_aside(found: Sizing, table: str, follow: dict[str, Any]) -> None:

@@ -2,6 +2,15 @@
 
 >>> import numpy as np
 >>> from treadwell import mapping
+>>> camera = mapping.Camera(width=640, height=480, fx=525.0, fy=525.0, cx=319.5, cy=239.5)
+>>> world = mapping.Map("fog", camera, robot="qrio", overrides={"fog.cell": 0.02})
+>>> for depth, world_from_camera in frames:             # (h, w) m, NaN or 0 unseen; (4, 4)
+...     seen = world.insert(depth, world_from_camera)   # seen.used, seen.reason, seen.planes
+>>> view = world.view()                                 # origin, cell, kind, height, sightings
+>>> stairs = mapping.find_stairs(world)
+>>> way = mapping.plan(world, start=(0, 0, 0), goal=(2, 0))
+>>> way.path, way.reason
+
 >>> height = np.zeros((100, 250))                       # (rows along y, columns along x), metres
 >>> height[:, 100:] = 0.04                              # a step
 >>> plan = mapping.plan_footsteps(height, cell=0.01, start=(0.4, 0.5, 0.0), goal=(2.0, 0.5))
@@ -9,7 +18,26 @@
 ...     step.side, step.x, step.y, step.yaw, step.height
 """
 
+from treadwell._core import FloorView
 from treadwell.footstep_plan import FootstepPlan, PlannedFootstep
+from treadwell.mapping.camera import Camera
 from treadwell.mapping.footsteps import plan_footsteps
+from treadwell.mapping.map import Map, Seen
+from treadwell.mapping.stairs import FoundStair, find_stairs
+from treadwell.mapping.view import floor_view
+from treadwell.mapping.ways import Way, plan
 
-__all__ = ["FootstepPlan", "PlannedFootstep", "plan_footsteps"]
+__all__ = [
+    "Camera",
+    "FloorView",
+    "FootstepPlan",
+    "FoundStair",
+    "Map",
+    "PlannedFootstep",
+    "Seen",
+    "Way",
+    "find_stairs",
+    "floor_view",
+    "plan",
+    "plan_footsteps",
+]

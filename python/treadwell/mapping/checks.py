@@ -1,0 +1,165 @@
+"""What the library takes: arrays of any type and stride, poses, settings."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import ValidationError
+
+from treadwell.errors import InputError
+from treadwell.plugins import check_component, load_component
+from treadwell.scenario.messages import describe, report
+from treadwell.scenario.model import Navigation
+from treadwell.scenario.overrides import assign, parse_setting
+from treadwell.sources.frame import Floats, PinholeCamera
+
+Overrides = Mapping[str, Any] | Sequence[str]
+"""Settings of `[navigation]`: `{"fog.cell": 0.02}`, `{"fog": {"cell": 0.02}}` or
+`["fog.cell=0.02"]`; a key may begin with `navigation.`."""
+
+_SQUARE_WITHIN: Final = 1e-3
+"""How far the columns of a rotation may be off being of length one, and square to each other."""
+
+
+def depth_picture(depth: ArrayLike, camera: PinholeCamera) -> NDArray[np.float32]:
+    """Return depths as the core takes them, (h, w) m, NaN where nothing was seen.
+
+    Args:
+        depth: (h, w) m along the optical axis, of any float type and stride; NaN, 0, negative or
+            infinite where nothing was seen.
+        camera: whose picture it is.
+
+    Raises:
+        InputError: it is no picture of that camera.
+    """
+    given = np.asarray(depth)
+    expected = (camera.height, camera.width)
+    if given.dtype.kind not in "fiu" or given.shape != expected:
+        raise InputError(
+            f"depth must be numbers {expected} (rows, columns of the camera), "
+            f"got {given.dtype} {given.shape}"
+        )
+    seen = np.isfinite(given) & (given > 0)
+    return np.ascontiguousarray(np.where(seen, given, np.nan), np.float32)
+
+
+def pose_matrix(pose: ArrayLike, name: str) -> Floats:
+    """Return a pose as (4, 4) float64.
+
+    Raises:
+        InputError: it is no rigid motion.
+    """
+    given = np.asarray(pose)
+    if given.shape != (4, 4) or given.dtype.kind not in "fiu" or not np.isfinite(given).all():
+        raise InputError(f"{name} must be a finite (4, 4) matrix, got {given.dtype} {given.shape}")
+    matrix = np.ascontiguousarray(given, np.float64)
+    turn = matrix[:3, :3]
+    square = np.abs(turn.T @ turn - np.eye(3)).max() < _SQUARE_WITHIN
+    if not square or np.linalg.det(turn) < 0.0 or not np.allclose(matrix[3], [0, 0, 0, 1]):
+        raise InputError(
+            f"{name} must be a rotation and a translation, with 0 0 0 1 as its last row, "
+            f"got {np.array2string(matrix, precision=4, separator=' ').replace(chr(10), '')}"
+        )
+    return matrix
+
+
+def finite_numbers(name: str, numbers: Sequence[float], count: int) -> tuple[float, ...]:
+    """Return numbers of which there must be so many.
+
+    Raises:
+        InputError: there are not, or one is not finite.
+    """
+    try:
+        found = tuple(float(number) for number in numbers)
+    except (TypeError, ValueError):
+        found = ()
+    if len(found) != count or not all(map(math.isfinite, found)):
+        raise InputError(f"{name} must be {count} finite numbers, got {numbers!r}")
+    return found
+
+
+def positive(name: str, value: float) -> float:
+    """Return a number that must be > 0.
+
+    Raises:
+        InputError: it is not.
+    """
+    if not (math.isfinite(value) and value > 0.0):
+        raise InputError(f"{name} must be finite and > 0, got {value!r}")
+    return float(value)
+
+
+def raw_tables(overrides: Overrides | None) -> dict[str, Any]:
+    """Return overrides as tables within tables, as a scenario's `[navigation]` has them.
+
+    Raises:
+        InputError: a key that cannot be.
+    """
+    raw: dict[str, Any] = {}
+    _put(raw, "", overrides or {})
+    inner = raw.pop("navigation", {})
+    if not isinstance(inner, dict):
+        raise InputError("overrides: navigation must be a table")
+    _put(raw, "", inner)
+    return raw
+
+
+def _put(raw: dict[str, Any], before: str, overrides: Overrides) -> None:
+    """Put overrides at their places, below a key."""
+    if isinstance(overrides, str):
+        raise InputError(f"overrides: must be a dict or a list of KEY=VALUE, got {overrides!r}")
+    pairs = (
+        overrides.items()
+        if isinstance(overrides, Mapping)
+        else [parse_setting(setting) for setting in overrides]
+    )
+    for key, value in pairs:
+        if isinstance(value, Mapping):
+            _put(raw, f"{before}{key}.", value)
+        else:
+            assign(raw, f"{before}{key}", value)
+
+
+def checked_tables(raw: Mapping[str, Any]) -> dict[str, Any]:
+    """Return tables within tables as checked parameters of `[navigation]`; names of parts apart.
+
+    Raises:
+        InputError: an unknown part or table, or a value that cannot be; with the nearest spelling.
+    """
+    try:
+        return Navigation.model_validate(raw).parameters()
+    except ValidationError as error:
+        lines = [describe(detail, raw) for detail in error.errors(include_url=False)]
+        raise InputError(report("mapping", list(dict.fromkeys(lines)))) from None
+
+
+def own_part(
+    slot: str, given: str | type | object, raw: dict[str, Any]
+) -> tuple[object | None, str]:
+    """Return a part of the user's, None where it is one of the list; and its name.
+
+    Args:
+        slot: which component it is to be.
+        given: a name of the list, `package.module:Class`, a class, or an object.
+        raw: overrides; the table of the class's name is taken out, for it.
+
+    Raises:
+        InputError: it cannot be made, or lacks a method of its protocol.
+    """
+    if isinstance(given, str) and ":" not in given:
+        return None, given
+    named = given.rpartition(":")[2] if isinstance(given, str) else None
+    kind = given if isinstance(given, type) else type(given)
+    name = named or kind.__name__
+    parameters = raw.pop(name, {})
+    if isinstance(given, str):
+        return load_component(slot, given, parameters), name
+    if isinstance(given, type):
+        try:
+            given = given(**parameters)
+        except Exception as error:
+            raise InputError(f"{slot}: cannot make {name}: {error!r}") from error
+    check_component(slot, given)
+    return given, name

@@ -1,0 +1,247 @@
+"""A map of range pictures and clouds of one's own, whose poses are known."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from treadwell._core import FloorView, Planes, RangeMap, Staircase
+from treadwell.errors import CoreError, InputError
+from treadwell.guard import Guard, blamed
+from treadwell.map_making.headroom import headroom_of
+from treadwell.map_making.mapper import NOT_TAKEN, NOTHING_SEEN
+from treadwell.map_making.placing import Placing, ground_below, placing, sensed
+from treadwell.map_making.request import MapTable
+from treadwell.map_making.sizing import pooled, sizing
+from treadwell.mapping.camera import Camera
+from treadwell.mapping.checks import (
+    Overrides,
+    checked_tables,
+    depth_picture,
+    own_part,
+    pose_matrix,
+    raw_tables,
+)
+from treadwell.sources.frame import Floats, RangeFrame
+
+NO_SURFACE: Final = "no level surface was found"
+_CALL_LIMIT_S: Final = 30.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Seen:
+    """What became of one frame.
+
+    Attributes:
+        used: whether the map took it in.
+        reason: why it was not used, or why nothing came of it; None where all is well.
+        planes: the surfaces that were found in a picture, heights above the lowest ground in it;
+            None of a cloud, and of a world model that has no use for surfaces.
+    """
+
+    used: bool
+    reason: str | None
+    planes: Planes | None
+
+
+class Map:
+    """Keeps a world model of what a range sensor saw from known poses: no episode, no MuJoCo.
+
+    The map's frame is the world's, z up. What the data asks for and nobody sets (the size of the
+    window, how far is looked) follows from the first frame; `assumed` says what.
+
+    >>> world = mapping.Map("fog", camera, robot="qrio", overrides={"fog.cell": 0.02})
+    >>> for depth, world_from_camera in frames:
+    ...     seen = world.insert(depth, world_from_camera)
+    >>> view = world.view()
+
+    Attributes:
+        camera: of the pictures; None: only clouds are taken.
+        robot: whose height and stairs count; None without.
+        assumed: key -> value, of what follows from the first frame.
+    """
+
+    def __init__(
+        self,
+        world_model: str | type | object = "fog",
+        camera: Camera | None = None,
+        *,
+        robot: str | Path | None = None,
+        segmenter: str = "scan_line",
+        overrides: Overrides | None = None,
+    ) -> None:
+        """Choose the parts; the map is made by the first frame.
+
+        Args:
+            world_model: a name of `treadwell list components`, `package.module:Class`, or a class
+                or an object with the methods of `treadwell.protocols.WorldModel`.
+            camera: of the pictures.
+            robot: a robot's name or folder; with it, stairs are looked for in the pictures.
+            segmenter: what finds surfaces in the pictures, a name of the list.
+            overrides: settings of `[navigation]`, as in `{"fog.cell": 0.02}`.
+
+        Raises:
+            InputError: one of them cannot be used; it is named.
+        """
+        self.camera = camera
+        self.robot = None if robot is None else str(robot)
+        self.assumed: dict[str, Any] = {}
+        self._segmenter = segmenter
+        raw = raw_tables(overrides)
+        own, self._name = own_part("world_model", world_model, raw)
+        self._own = None if own is None else Guard("world_model", self._name, own, _CALL_LIMIT_S)
+        parts = {"segmenter": segmenter, **({} if own else {"world_model": self._name})}
+        self._parameters = checked_tables({**raw, **parts})
+        if own is None:
+            # Settings that cannot be are refused here, not by the first frame.
+            _, headroom = headroom_of(self._name, self._parameters, self.robot)
+            RangeMap(self._name, settings=json.dumps(self._parameters), headroom=headroom)
+        self._data = MapTable()
+        self._core: RangeMap | None = None
+        self._place: Placing | None = None
+        self._camera_set = False
+
+    def insert(self, depth: ArrayLike, world_from_camera: ArrayLike) -> Seen:
+        """Take in a depth picture of the camera.
+
+        Args:
+            depth: (h, w) m along the optical axis, of any float type and stride; NaN or 0 where
+                nothing was seen.
+            world_from_camera: (4, 4) pose; of the camera's frame z is the optical axis, forward,
+                x right, y down.
+
+        Raises:
+            InputError: no picture of the camera, or no pose.
+            CoreError: a world model of the user's failed; the map is as it was.
+        """
+        if self.camera is None:
+            raise InputError("Map.insert: the map was made without a camera: Map(..., camera)")
+        picture = depth_picture(depth, self.camera)
+        pose = pose_matrix(world_from_camera, "world_from_camera")
+        return self._insert(RangeFrame(0.0, pose, self.camera, picture, None, "picture"))
+
+    def insert_points(self, points: ArrayLike, world_from_sensor: ArrayLike) -> Seen:
+        """Take in a cloud, all of it seen from the sensor's origin.
+
+        Args:
+            points: (n, 3) m in the sensor's frame, of any float type; rows with NaN are left out.
+            world_from_sensor: (4, 4) pose.
+
+        Raises:
+            InputError: no cloud or no pose; or the world model finds its floors in pictures.
+            CoreError: a world model of the user's failed; the map is as it was.
+        """
+        given = np.asarray(points)
+        if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
+            raise InputError(f"points must be numbers (n, 3), got {given.dtype} {given.shape}")
+        pose = pose_matrix(world_from_sensor, "world_from_sensor")
+        cloud = np.ascontiguousarray(given, np.float32)
+        return self._insert(RangeFrame(0.0, pose, None, None, cloud, "cloud"))
+
+    def view(self) -> FloorView:
+        """Return the map: `origin`, `cell`, `kind`, `height`, `sightings`; a copy.
+
+        Its method `clearance()` gives the distance to what blocks, and
+        `passable(z, rise, radius)` where a robot may be.
+
+        Raises:
+            InputError: no frame was taken in yet.
+        """
+        core, place = self._made("view")
+        x, y, z = place.offset.tolist()
+        return core.view().moved((x, y, z))
+
+    def staircase(self) -> Staircase | None:
+        """Return the stairs in the map's own frame; None where they are not looked for."""
+        return None if self._core is None else self._core.staircase()
+
+    def voxels(self) -> NDArray[np.float32]:
+        """Return middle and side of each occupied cube, (n, 4) m, of a model that keeps such."""
+        core, place = self._made("voxels")
+        middles, sides = core.occupied()
+        moved = middles.reshape(-1, 3) + place.offset
+        return np.column_stack([moved, sides]).astype(np.float32)
+
+    @property
+    def core(self) -> RangeMap:
+        """The core's map, for the other parts of the library.
+
+        Raises:
+            InputError: no frame was taken in yet.
+        """
+        return self._made("core")[0]
+
+    @property
+    def offset(self) -> Floats:
+        """(3,) m: the origin of the core's map in the world; 0 unless the data lie far away.
+
+        Raises:
+            InputError: no frame was taken in yet.
+        """
+        return self._made("offset")[1].offset
+
+    def _made(self, asked: str) -> tuple[RangeMap, Placing]:
+        if self._core is None or self._place is None:
+            raise InputError(f"Map.{asked}: no frame was taken in yet")
+        return self._core, self._place
+
+    def _insert(self, frame: RangeFrame) -> Seen:
+        core = self._core or self._begin(frame)
+        assert self._place is not None
+        some = sensed(frame)
+        if not len(some):
+            return Seen(used=False, reason=NOTHING_SEEN, planes=None)
+        pose = self._place.pose(frame.world_from_sensor)
+        ground = ground_below(some, pose)
+        try:
+            if frame.depth is None:
+                assert frame.points is not None
+                used, planes = core.insert_points(frame.points, pose, ground), None
+            else:
+                used, planes = core.insert_depth(frame.depth, pose, ground), core.planes()
+        except CoreError as error:
+            guards = {} if self._own is None else {"world_model": self._own}
+            raise blamed(error, guards) from None
+        if not used:
+            return Seen(used=False, reason=NOT_TAKEN, planes=planes)
+        floors = planes is None or np.isfinite(planes.floor_height).any()
+        idle = core.needs_surfaces and not floors
+        return Seen(used=True, reason=NO_SURFACE if idle else None, planes=planes)
+
+    def _begin(self, first: RangeFrame) -> RangeMap:
+        """Make the core's map for data like the first frame."""
+        rough = placing(self._data.up, first.world_from_sensor, 1.0)
+        sizes = sizing(self._name, self._parameters, (first, rough), self._data.ground)
+        parameters = sizes.parameters
+        if self.robot is not None:
+            from treadwell.robot.load import load_robot
+
+            of_robot = load_robot(self.robot).file.navigation.get("stairs", {})
+            parameters["stairs"] = {**of_robot, **parameters.get("stairs", {})}
+        _, headroom = headroom_of(self._name, parameters, self.robot)
+        core = RangeMap(
+            self._name, settings=json.dumps(parameters), headroom=headroom, model=self._own
+        )
+        if core.needs_surfaces and first.layout == "cloud" and self._own is None:
+            raise InputError(
+                f"world_model: found {self._name!r}, which finds its floors in pictures; of "
+                "clouds a map is made by 'elevation' and its like"
+            )
+        camera = self.camera
+        if camera is not None:
+            core.set_camera(
+                (camera.width, camera.height),
+                (camera.fx, camera.fy),
+                (camera.cx, camera.cy),
+                segmenter=self._segmenter,
+                pool=pooled(camera, self._data.columns),
+                baseline=self._data.baseline,
+                stairs=self.robot is not None,
+            )
+        self.assumed = sizes.assumed
+        self._place = placing(self._data.up, first.world_from_sensor, sizes.cell or 1.0)
+        self._core = core
+        return core
