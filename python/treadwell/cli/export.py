@@ -6,7 +6,9 @@ from typing import Any
 from treadwell.cli.output import write_message
 
 
-def exported(run_dir: Path, to: str, out: Path | None) -> dict[str, Any]:
+def exported(
+    run_dir: Path, to: str, out: Path | None, storage: str | None = None
+) -> dict[str, Any]:
     """Write the files and return which.
 
     Raises:
@@ -15,7 +17,7 @@ def exported(run_dir: Path, to: str, out: Path | None) -> dict[str, Any]:
     """
     from treadwell.exports.export import export
 
-    files = export(run_dir, to, out)
+    files = export(run_dir, to, out, storage=storage)
     for path in files:
         write_message(f"wrote {path} ({path.stat().st_size / 1000:.0f} kB)")
     return {"run": str(run_dir), "to": to, "files": [str(path) for path in files]}

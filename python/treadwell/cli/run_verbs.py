@@ -27,6 +27,14 @@ class To(StrEnum):
     TUM = "tum"
     MCAP = "mcap"
     GLTF = "gltf"
+    ROSBAG2 = "rosbag2"
+
+
+class Storage(StrEnum):
+    """How a bag of ROS 2 is stored."""
+
+    MCAP = "mcap"
+    SQLITE3 = "sqlite3"
 
 
 def inspect(
@@ -130,12 +138,18 @@ def export(
         Path | None,
         typer.Option("--out", metavar="DIR", help="Where to; default: export-... in the run's."),
     ] = None,
+    storage: Annotated[
+        Storage | None,
+        typer.Option("--storage", help="Of rosbag2: mcap (default), or sqlite3 for ROS 2 Humble."),
+    ] = None,
     as_json: JsonOption = False,
 ) -> int:
     """Write files that other tools open: maps, clouds, ways, messages."""
     from treadwell.cli import export as cli_export
 
-    document = cli_export.exported(run_dir, to.value, out)
+    document = cli_export.exported(
+        run_dir, to.value, out, None if storage is None else storage.value
+    )
     if as_json:
         write_json(document)
     return PASSED

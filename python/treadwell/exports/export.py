@@ -47,6 +47,12 @@ def _gltf(source: Path, out: Path) -> Sequence[Path]:
     return export_gltf(source, out)
 
 
+def _rosbag2(source: Path, out: Path, storage: str = "mcap") -> Sequence[Path]:
+    from treadwell.exports.rosbag2 import export_rosbag2
+
+    return export_rosbag2(source, out, storage)
+
+
 FORMATS: Final[dict[str, Callable[[Path, Path], Sequence[Path]]]] = {
     "octomap": _octomap,
     "map_server": _map_server,
@@ -54,11 +60,14 @@ FORMATS: Final[dict[str, Callable[[Path, Path], Sequence[Path]]]] = {
     "tum": _tum,
     "mcap": _mcap,
     "gltf": _gltf,
+    "rosbag2": _rosbag2,
 }
 """Name of a format -> what writes it; what a format needs is imported when it is asked for."""
 
 
-def export(run_dir: Path, to: str, out: Path | None = None) -> list[Path]:
+def export(
+    run_dir: Path, to: str, out: Path | None = None, *, storage: str | None = None
+) -> list[Path]:
     """Write a run's files in a format of other tools.
 
     Args:
@@ -67,9 +76,11 @@ def export(run_dir: Path, to: str, out: Path | None = None) -> list[Path]:
         to: one of `FORMATS`.
         out: the folder; made where there is none. Default: `export-<format>` in the run's; of a
             scenario `<scenario>-octomap`.
+        storage: of `rosbag2`: `mcap`, which is the default, or `sqlite3`.
 
     Returns:
-        The files written. A file of that name that was there is replaced.
+        The files written. A file of that name that was there is replaced, but a bag is not: its
+        folder must be new or empty.
 
     Raises:
         InputError: there is no such run or format, or the run lacks what the format shows.
@@ -77,10 +88,14 @@ def export(run_dir: Path, to: str, out: Path | None = None) -> list[Path]:
     """
     if to not in FORMATS:
         raise InputError(f"--to: found {to}; must be one of {', '.join(FORMATS)}")
+    if storage is not None and to != "rosbag2":
+        raise InputError(f"--storage: found {storage}; only a rosbag2 has one, and not {to}")
     folder = run_dir / f"export-{to}"
     work: Callable[[Path], Sequence[Path]]
     if run_dir.is_dir():
         work = partial(FORMATS[to], run_dir)
+        if storage is not None:
+            work = partial(_rosbag2, run_dir, storage=storage)
     elif to == "octomap" and (run_dir.is_file() or str(run_dir) in scenario_names()):
         from treadwell.exports.octomap import export_course
 
