@@ -61,13 +61,29 @@ def core_settings(scenario: Scenario, robot: "Robot", course: "Course") -> str:
     goal = scenario.goal
     other_level = abs(course.goal_height - course.start.height) > _SAME_LEVEL
     goal_height = course.goal_height if goal.height is None and other_level else goal.height
+    place = course.start
+    start = {"position": list(place.position), "height": place.height, "yaw": place.yaw}
+    return told_settings(scenario, robot, start, goal_height)
+
+
+def told_settings(
+    scenario: Scenario, robot: "Robot", start: Mapping[str, Any], goal_height: float | None
+) -> str:
+    """Return robot, start, goals and navigation as JSON, of a place that need not be a course.
+
+    Args:
+        scenario: with goal and navigation.
+        robot: the robot.
+        start: position m, height of the ground m and yaw rad; told where the scenario says that
+            it is known.
+        goal_height: m; None: the goal counts on any level.
+    """
+    goal = scenario.goal
     places = [{"position": list(via), "radius": goal.radius} for via in goal.via]
     places.append({"position": list(goal.position), "radius": goal.radius, "height": goal_height})
-    place = course.start
-    known = {"position": list(place.position), "height": place.height, "yaw": place.yaw}
     settings = {
         "robot": robot.description(),
-        "start": known if scenario.start.known else None,
+        "start": start if scenario.start.known else None,
         "goals": places,
         "navigation": navigation_settings(scenario.navigation, robot.file.navigation),
     }

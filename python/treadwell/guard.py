@@ -2,11 +2,14 @@
 
 import traceback
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from treadwell._core import Pilot, Tick
 from treadwell.call_limit import CallLimit, CallTimeoutError
 from treadwell.errors import CoreError
+from treadwell.observation import Observation
 from treadwell.plugins import METHODS, OPTIONAL
 
 
@@ -64,6 +67,21 @@ class Guard:
 
 _OWN = frozenset({__file__, CallLimit.__exit__.__code__.co_filename})
 """The harness's own files, which are not to blame."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GuardedCore:
+    """A core, and what stands between it and the user's components."""
+
+    pilot: Pilot
+    guards: dict[str, Guard]
+
+    def tick(self, observation: Observation) -> Tick:
+        """Return the core's answer; an error has the name of the component that is its cause."""
+        try:
+            return self.pilot.tick(observation)
+        except CoreError as error:
+            raise blamed(error, self.guards) from error
 
 
 def blamed(error: CoreError, guards: dict[str, Guard]) -> CoreError:

@@ -9,10 +9,9 @@ from time import perf_counter
 from treadwell._core import Pilot, Tick
 from treadwell.core_settings import build_core, guards, user_components
 from treadwell.errors import CoreError, InputError
-from treadwell.guard import Guard, blamed
+from treadwell.guard import GuardedCore
 from treadwell.interruption import Interruption
 from treadwell.measuring.measures import timing
-from treadwell.observation import Observation
 from treadwell.progress import Progress
 from treadwell.recording.core_products import known_occupied
 from treadwell.recording.log_file import BrokenLogError
@@ -93,7 +92,7 @@ def replay_source(
     guarded = guards(source.scenario, given, set(components))
     given.update(guarded)
     pilot = build_core(source.scenario, source.core.settings, given, source.core.static_map)
-    core = _GuardedCore(pilot, guarded)
+    core = GuardedCore(pilot, guarded)
     folder = make_folder_beside(out, Path(run_dir), "replay")
     found, begin, interrupted = Findings(), perf_counter(), False
     with Interruption() as interruption:
@@ -114,24 +113,9 @@ def replay_source(
     return Replay(result, folder, interrupted)
 
 
-@dataclass(frozen=True, slots=True)
-class _GuardedCore:
-    """The core, and what stands between it and the user's components."""
-
-    pilot: Pilot
-    guards: dict[str, Guard]
-
-    def tick(self, observation: Observation) -> Tick:
-        """Return the core's answer; an error has the name of the component that is its cause."""
-        try:
-            return self.pilot.tick(observation)
-        except CoreError as error:
-            raise blamed(error, self.guards) from error
-
-
 def _loop(
     source: Source,
-    core: _GuardedCore,
+    core: GuardedCore,
     found: Findings,
     progress: Progress | None,
     begin: float,
