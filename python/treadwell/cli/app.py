@@ -11,6 +11,7 @@ import typer
 
 from treadwell.cli import list_verbs, run_verbs, sweep_verbs
 from treadwell.cli import map as map_verb
+from treadwell.cli import serve as serve_verb
 from treadwell.cli.options import (
     JsonOption,
     NoUserCodeOption,
@@ -130,6 +131,9 @@ app.command(
 )(run_verbs.report)
 app.command(short_help="Write files that other tools open.", epilog=run_verbs.EXPORT_EXAMPLE)(
     run_verbs.export
+)
+app.command(short_help="Be the core of a robot elsewhere.", epilog=serve_verb.EXAMPLE)(
+    serve_verb.serve
 )
 
 
