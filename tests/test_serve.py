@@ -29,7 +29,7 @@ def serving(
 ) -> Iterator[tuple[subprocess.Popen[str], list[str]]]:
     """The program, listening, and what it said until then."""
     program = subprocess.Popen(
-        [*PROGRAM, "--robot", robot, *options],
+        [*PROGRAM, "--robot", robot, "--timeout", "60", *options],
         cwd=folder,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
