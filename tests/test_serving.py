@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from run_folders import recorded_run
 from serving_builders import GOAL, HELLO, Running, answers, observation, running, told
 
@@ -188,6 +190,29 @@ def test_time_that_stands_still_is_refused(here: Running, served: ServedRobot) -
     with pytest.raises(ProtocolError, match="time_ns: found 30000000; must be later than 3"):
         core.tick(observation(served, 3))
     core.abandon()
+
+
+@settings(
+    deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(st.data())
+def test_any_damage_to_a_session_is_told_and_the_next_client_is_served(
+    here: Running, served: ServedRobot, data: st.DataObject
+) -> None:
+    whole = HELLO + told(served) + told(served, {"time_ns": TICK_NS}) + pack({"type": "goodbye"})
+    damaged = bytearray(whole[: data.draw(st.integers(1, len(whole)))])
+    for _ in range(data.draw(st.integers(0, 3))):
+        damaged[data.draw(st.integers(0, len(damaged) - 1))] = data.draw(st.integers(0, 255))
+    with connected(here.address, 20.0) as connection:
+        connection._socket.sendall(damaged)
+        connection._socket.shutdown(socket.SHUT_WR)
+        kinds = []
+        while (message := connection.receive()) is not None:
+            kinds.append(message.header["type"])
+    assert kinds[-1] in ("error", "goodbye")
+    assert "error" not in kinds[:-1]
+    assert damaged != whole or kinds == ["hello", "targets", "targets", "goodbye"]
+    Client(here.address, goal=GOAL).close()
 
 
 @pytest.mark.parametrize("cut", [1, 8, 30, len(HELLO), len(HELLO) + 5, -1])
