@@ -17,7 +17,6 @@ from treadwell.cli.output import (
     write_message,
 )
 from treadwell.errors import InputError
-from treadwell.plugins import examined, foreign_parts
 
 EXAMPLE: Final = "Example: treadwell serve --robot qrio --socket core.sock --timeout 5"
 _MOST_PORTS: Final = 65535
@@ -64,6 +63,7 @@ def serve(
     as_json: JsonOption = False,
 ) -> int:
     """Be the core of a robot elsewhere: observations come over a socket, joint targets go back."""
+    from treadwell.plugins import examined, foreign_parts
     from treadwell.serving.connection import shown_address
     from treadwell.serving.served import ServedRobot
     from treadwell.serving.server import TIMEOUT_S, attend_all, listening
