@@ -1,19 +1,4 @@
-//! Stairs (003): extracted from horizontal planes, their edges fitted to the disparities, merged while the robot stands,
-//! remembered while it steps, and where feet fit on them.
-//!
-//! Where a sole goes on a stair, or why none goes there:
-//!
-//! ```
-//! use stairs::{ClimbingConfig, Feet, Footing, Onward, Unfit};
-//!
-//! let feet = Feet { length_m: 0.105, pair_width_m: 0.16, stance_m: 0.085 };
-//! let config = ClimbingConfig::default();
-//! let next = Onward::Edge { depth_m: 0.12, rise_m: 0.03 };
-//! let on = Footing::on_stair(&config, &feet, 0.03, 0.33, next);
-//! assert!(on.is_ok());
-//! let too_high = Footing::on_stair(&config, &feet, 0.08, 0.33, next);
-//! assert!(matches!(too_high, Err(Unfit::TooHigh(_))));
-//! ```
+#![doc = include_str!("../README.md")]
 
 mod climbing;
 mod config;

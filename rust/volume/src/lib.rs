@@ -1,27 +1,4 @@
-//! Volumes: the voxel occupancy grid, its sensor model and its rays.
-//!
-//! A map of your own from any range sensor: rays in, voxels and lines of sight out.
-//!
-//! ```
-//! use volume::octree::{Cast, Octree, OctreeConfig, Sighting};
-//! use volume::{Ray, Update};
-//!
-//! let mut tree = Octree::new(OctreeConfig::default())?;
-//! let eye_m = [0.0, 0.0, 0.5];
-//! let wall: Vec<Ray> = (-20..20)
-//!     .map(|y| Ray { end_m: [1.0, 0.04 * f64::from(y), 0.5], hit: true })
-//!     .collect();
-//! for _frame in 0..3 {
-//!     tree.insert(eye_m, &wall, Update::PerFrame)?;
-//! }
-//! assert_eq!(tree.is_occupied_at([1.0, 0.0, 0.5]), Some(true));
-//! assert_eq!(tree.is_occupied_at([0.5, 0.0, 0.5]), Some(false));
-//! assert_eq!(tree.is_occupied_at([1.5, 0.0, 0.5]), None); // never seen
-//!
-//! let sighting = Sighting { max_range_m: 4.0, through_unknown: false };
-//! assert!(matches!(tree.cast_ray(eye_m, [1.0, 0.0, 0.0], sighting), Cast::Occupied(_)));
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+#![doc = include_str!("../README.md")]
 
 mod bins;
 mod columns;
