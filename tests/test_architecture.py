@@ -26,6 +26,7 @@ TESTED_BY = {
     "mapping.stairs": "test_mapping.py",
     "mapping.view": "test_mapping.py",
     "mapping.ways": "test_mapping.py",
+    "__main__": "test_start.py",
     "recording.sole_outlines": "test_map_picture.py",
     "recording.stair_outlines": "test_map_picture.py",
     "recording.step_shapes": "test_recording.py",

@@ -58,6 +58,32 @@ def test_list_has_everything(what: str, capsys: pytest.CaptureFixture[str]) -> N
         assert document[what] == COMPONENTS
 
 
+@pytest.mark.parametrize("slot", COMPONENTS)
+def test_one_kind_of_component_is_listed_by_its_plural(
+    slot: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kind = f"{slot}s"
+    assert execute(["list", kind, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == {kind: COMPONENTS[slot]}
+    assert execute(["list", kind]) == 0
+    shown = capsys.readouterr().out
+    listed_names = [line.split()[0] for line in shown.splitlines() if line.strip()]
+    assert listed_names[0] == kind
+    assert set(COMPONENTS[slot]) <= set(listed_names)
+
+
+@pytest.mark.parametrize("arguments", [[], ["robot"]])
+def test_without_a_verb_the_help_is_shown_and_nothing_is_wrong(
+    arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert execute(arguments) == 0
+    alone = capsys.readouterr()
+    assert alone.err == ""
+    assert execute([*arguments, "--help"]) == 0
+    assert capsys.readouterr().out == alone.out
+    assert alone.out.startswith(f"Usage: {' '.join(['treadwell', *arguments])} ")
+
+
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
@@ -76,7 +102,10 @@ def test_list_has_everything(what: str, capsys: pytest.CaptureFixture[str]) -> N
         (["check", "slalom", "--set", "navigation.fog.cell=0"], "navigation.fog.cell"),
         (["check", "slalom", "--set", "navigation.fog.sell=1"], "sell"),
         (["check", "slalom", "--set", "navigation.planner=no.such:Thing"], "no.such"),
-        (["list", "robot"], "robots"),
+        (["list", "robot"], "did you mean 'robots'?"),
+        (["list", "planner"], "did you mean 'planners'?"),
+        (["list", "walls"], "allowed are scenarios, robots, components, experiments, world_models"),
+        (["list", "planners", "a_star"], "only `list parameters`"),
         (["run", "slalon"], "did you mean 'slalom'?"),
     ],
 )

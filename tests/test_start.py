@@ -30,9 +30,10 @@ def started(code: list[str]) -> tuple[int, str, str]:
     return done.returncode, done.stdout, done.stderr
 
 
-def test_it_is_the_command_line() -> None:
+@pytest.mark.parametrize("module", ["treadwell", "treadwell.cli.start"])
+def test_it_is_the_command_line(module: str) -> None:
     told = f"treadwell {__version__}\n"
-    assert started(["-m", "treadwell.cli.start", "--version"]) == (0, told, "")
+    assert started(["-m", module, "--version"]) == (0, told, "")
 
 
 @pytest.mark.parametrize(

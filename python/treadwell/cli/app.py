@@ -30,23 +30,32 @@ app = typer.Typer(
     "3 anything else, 130 interrupted.",
     add_completion=False,
     pretty_exceptions_enable=False,
-    no_args_is_help=True,
     rich_markup_mode=None,  # rich takes longer to import than all else together
 )
 
-robot_app = typer.Typer(help="What a robot's folder holds.", no_args_is_help=True)
+robot_app = typer.Typer(help="What a robot's folder holds.")
 app.add_typer(robot_app, name="robot")
 
 
 @app.callback(invoke_without_command=True)
 def _options(
-    *, version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False
+    context: typer.Context,
+    *,
+    version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False,
 ) -> None:
     if version:
         from treadwell.version import __version__
 
         typer.echo(f"treadwell {__version__}")
         raise typer.Exit
+    _help_without_verb(context)
+
+
+@robot_app.callback(invoke_without_command=True)
+def _help_without_verb(context: typer.Context) -> None:
+    """Show the help where no verb follows; not `no_args_is_help`, which takes it for an error."""
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help())
 
 
 @app.command(epilog="Example: treadwell run slalom --seed 3 --set physics.friction=0.6")

@@ -1,17 +1,44 @@
 """The verb `list`: scenarios, robots, components, experiments and parameters."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Final
 
 from treadwell.cli.output import write_table
 from treadwell.errors import InputError, TreadwellError
+
+PARAMETERS: Final = "parameters"
+WITHOUT_KIND: Final = ("scenarios", "robots", "components", "experiments")
+"""What is shown where no kind is asked for."""
+
+
+def kinds() -> list[str]:
+    """Return what can be asked for: each slot of `[navigation]` by its plural, too."""
+    from treadwell.components import COMPONENTS
+
+    return [*WITHOUT_KIND, *(f"{slot}s" for slot in COMPONENTS), PARAMETERS]
+
+
+def check_kind(kind: str) -> None:
+    """Refuse a kind of which there is no list.
+
+    Raises:
+        InputError: it is none of `kinds`; the message says the nearest.
+    """
+    allowed = kinds()
+    if kind not in allowed:
+        from treadwell.scenario.messages import nearest, shortened
+
+        raise InputError(
+            f"WHAT: there is no list of {shortened(kind)!r}: allowed are {', '.join(allowed)}"
+            f"{nearest(kind, allowed)}"
+        )
 
 
 def listed(kinds: Sequence[str], name: str | None = None) -> dict[str, Any]:
     """Return what there is of each kind, as plain data.
 
     Args:
-        kinds: of `scenarios`, `robots`, `components`, `experiments`, `parameters`.
+        kinds: of what the function `kinds` returns.
         name: whose parameters; None: all.
 
     Raises:
@@ -22,9 +49,12 @@ def listed(kinds: Sequence[str], name: str | None = None) -> dict[str, Any]:
         "robots": _robots,
         "components": _components,
         "experiments": _experiments,
-        "parameters": lambda: _parameters(name),
+        PARAMETERS: lambda: _parameters(name),
     }
-    return {kind: makers[kind]() for kind in kinds}
+    return {
+        kind: makers[kind]() if kind in makers else _of_slot(kind.removesuffix("s"))
+        for kind in kinds
+    }
 
 
 def show(document: Mapping[str, Any]) -> None:
@@ -42,14 +72,16 @@ def show(document: Mapping[str, Any]) -> None:
                 (each["name"], each["description"], ", ".join(each["cases"])) for each in entries
             ]
             write_table(kind, ("name", "what it is", "cases"), triples)
-        elif kind == "parameters":
+        elif kind == PARAMETERS:
             header = ("key", "default", "unit", "allowed", "what it means", "source")
             fields = ("key", "default", "unit", "bounds", "meaning", "source")
             rows = [[_shown(entry[field]) for field in fields] for entry in entries]
             write_table(kind, header, rows)
-        else:
+        elif kind in WITHOUT_KIND:
             pairs = [(entry["name"], entry["description"]) for entry in entries]
             write_table(kind, ("name", "what it is"), pairs)
+        else:
+            write_table(kind, ("name", "what it is"), list(entries.items()))
 
 
 def _scenarios() -> list[dict[str, str]]:
@@ -82,10 +114,15 @@ def _robots() -> list[dict[str, str]]:
 
 
 def _components() -> dict[str, dict[str, str]]:
-    from treadwell.additions import known
     from treadwell.components import COMPONENTS
 
-    return {slot: known(slot) for slot in COMPONENTS}
+    return {slot: _of_slot(slot) for slot in COMPONENTS}
+
+
+def _of_slot(slot: str) -> dict[str, str]:
+    from treadwell.additions import known
+
+    return known(slot)
 
 
 def _experiments() -> list[dict[str, Any]]:

@@ -13,16 +13,6 @@ LIST_EXAMPLE: Final = "Example: treadwell list parameters fog"
 SCHEMA_EXAMPLE: Final = "Example: treadwell schema scenario > scenario.schema.json"
 
 
-class What(StrEnum):
-    """What `list` can show."""
-
-    SCENARIOS = "scenarios"
-    ROBOTS = "robots"
-    COMPONENTS = "components"
-    EXPERIMENTS = "experiments"
-    PARAMETERS = "parameters"
-
-
 class Described(StrEnum):
     """What `schema` can describe."""
 
@@ -34,11 +24,16 @@ class Described(StrEnum):
 
 def list_(
     what: Annotated[
-        What | None, typer.Argument(help="One of them; all but the parameters without it.")
+        str | None,
+        typer.Argument(
+            metavar="WHAT",
+            help="scenarios, robots, components, one kind of component (planners, world_models, "
+            "...), experiments or parameters; all but the parameters without it.",
+        ),
     ] = None,
     name: Annotated[
         str | None,
-        typer.Argument(metavar="[NAME]", help="Whose parameters: a component, a stage, a key."),
+        typer.Argument(metavar="NAME", help="Whose parameters: a component, a stage, a key."),
     ] = None,
     *,
     as_json: JsonOption = False,
@@ -49,10 +44,11 @@ def list_(
     """
     from treadwell.cli import list as cli_list
 
-    if name is not None and what is not What.PARAMETERS:
+    if what is not None:
+        cli_list.check_kind(what)
+    if name is not None and what != cli_list.PARAMETERS:
         raise InputError("NAME: only `list parameters` takes one")
-    short = [kind.value for kind in What if kind is not What.PARAMETERS]
-    document = cli_list.listed([what.value] if what else short, name)
+    document = cli_list.listed([what] if what else cli_list.WITHOUT_KIND, name)
     if as_json:
         write_json(document)
     else:
