@@ -8,6 +8,16 @@ from treadwell.errors import TreadwellError
 PACKAGE = Path(__file__).resolve().parent
 
 
+def scenario_names() -> list[str]:
+    """Return the names of the scenarios that ship with the package, sorted."""
+    return sorted(path.stem for path in data_folder("scenarios").glob("*.toml"))
+
+
+def robot_names() -> list[str]:
+    """Return the names of the robots that ship with the package, sorted."""
+    return sorted(path.parent.name for path in data_folder("models").glob("*/robot.toml"))
+
+
 def data_folder(kind: Literal["models", "scenarios"]) -> Path:
     """Return the folder that holds the robots or the scenarios.
 

@@ -1,5 +1,6 @@
 """The command line `treadwell`: its verbs, their options, and the exit status of each."""
 
+import os
 import signal
 import sys
 from collections.abc import Sequence
@@ -9,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from treadwell.cli import list_verbs, run_verbs, sweep_verbs
+from treadwell.cli import completion, list_verbs, run_verbs, sweep_verbs
 from treadwell.cli import map as map_verb
 from treadwell.cli import serve as serve_verb
 from treadwell.cli.options import (
@@ -28,7 +29,7 @@ app = typer.Typer(
     help="A small humanoid finds its own way over an obstacle course, by its senses alone.",
     epilog="Exit status: 0 it met its expectations, 1 it did not, 2 the input is bad, "
     "3 anything else, 130 interrupted.",
-    add_completion=False,
+    add_completion=False,  # our own options: typer's take no shell's name
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # rich takes longer to import than all else together
 )
@@ -42,12 +43,22 @@ def _options(
     context: typer.Context,
     *,
     version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False,
+    show_completion: Annotated[
+        completion.Shell | None,
+        typer.Option("--show-completion", help="Show what makes a shell complete our words."),
+    ] = None,
+    install_completion: Annotated[
+        completion.Shell | None,
+        typer.Option("--install-completion", help="Put that where new shells read it."),
+    ] = None,
 ) -> None:
     if version:
         from treadwell.version import __version__
 
         typer.echo(f"treadwell {__version__}")
         raise typer.Exit
+    completion.show(show_completion)
+    completion.install(install_completion)
     _help_without_verb(context)
 
 
@@ -153,7 +164,11 @@ app.command(short_help="Be the core of a robot elsewhere.", epilog=serve_verb.EX
 def experiment(
     name: Annotated[
         str,
-        typer.Argument(metavar="NAME", help="One of `treadwell list experiments`."),
+        typer.Argument(
+            metavar="NAME",
+            help="One of `treadwell list experiments`.",
+            autocompletion=completion.experiments,
+        ),
     ],
     *,
     seeds: Annotated[
@@ -164,7 +179,12 @@ def experiment(
     ] = 0,
     only: Annotated[
         list[str] | None,
-        typer.Option("--only", metavar="CASE", help="Only this case; may be given again."),
+        typer.Option(
+            "--only",
+            metavar="CASE",
+            help="Only this case; may be given again.",
+            autocompletion=completion.cases,
+        ),
     ] = None,
     workers: Annotated[
         int | None,
@@ -271,6 +291,7 @@ def main() -> None:
         for number in (signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) != signal.SIG_IGN:
                 signal.signal(number, stop)
+        completion.prepare(os.environ)
         status = execute(sys.argv[1:])
     except KeyboardInterrupt:
         pass

@@ -5,6 +5,7 @@ from typing import Annotated, Final
 
 import typer
 
+from treadwell.cli import completion
 from treadwell.cli.options import JsonOption
 from treadwell.cli.output import PASSED, write_json
 from treadwell.errors import InputError
@@ -29,11 +30,16 @@ def list_(
             metavar="WHAT",
             help="scenarios, robots, components, one kind of component (planners, world_models, "
             "...), experiments or parameters; all but the parameters without it.",
+            autocompletion=completion.list_kinds,
         ),
     ] = None,
     name: Annotated[
         str | None,
-        typer.Argument(metavar="NAME", help="Whose parameters: a component, a stage, a key."),
+        typer.Argument(
+            metavar="NAME",
+            help="Whose parameters: a component, a stage, a key.",
+            autocompletion=completion.parameter_tables,
+        ),
     ] = None,
     *,
     as_json: JsonOption = False,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Final, Self
 
 import typer
 
+from treadwell.cli import completion
 from treadwell.cli.options import JsonOption, NoUserCodeOption, SeedOption
 from treadwell.cli.output import INTERRUPTED, PASSED, write_json, write_message, write_table
 
@@ -52,7 +53,10 @@ def map_(  # noqa: PLR0913 - one an option
     robot: Annotated[
         str | None,
         typer.Option(
-            "--robot", metavar="NAME", help="A robot's name or folder: its height counts."
+            "--robot",
+            metavar="NAME",
+            help="A robot's name or folder: its height counts.",
+            autocompletion=completion.robots,
         ),
     ] = None,
     camera: Annotated[

@@ -4,15 +4,24 @@ from typing import Annotated
 
 import typer
 
+from treadwell.cli import completion
+
 ScenarioArgument = Annotated[
     str,
     typer.Argument(
-        metavar="SCENARIO", help="A file, or the name of one that `treadwell list` shows."
+        metavar="SCENARIO",
+        help="A file, or the name of one that `treadwell list` shows.",
+        autocompletion=completion.scenarios,
     ),
 ]
 RobotOption = Annotated[
     str | None,
-    typer.Option("--robot", metavar="NAME", help="A robot's name or folder, not the file's."),
+    typer.Option(
+        "--robot",
+        metavar="NAME",
+        help="A robot's name or folder, not the file's.",
+        autocompletion=completion.robots,
+    ),
 ]
 SeedOption = Annotated[
     int | None,
@@ -26,7 +35,10 @@ SeedOption = Annotated[
 SetOption = Annotated[
     list[str] | None,
     typer.Option(
-        "--set", metavar="KEY=VALUE", help="Change a key: course.stairs.rise=0.04. Repeatable."
+        "--set",
+        metavar="KEY=VALUE",
+        help="Change a key: course.stairs.rise=0.04. Repeatable.",
+        autocompletion=completion.settings,
     ),
 ]
 JsonOption = Annotated[

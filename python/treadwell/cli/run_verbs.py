@@ -6,6 +6,7 @@ from typing import Annotated, Final
 
 import typer
 
+from treadwell.cli import completion
 from treadwell.cli.options import JsonOption, NoUserCodeOption
 from treadwell.cli.output import PASSED, write_json, write_message
 
@@ -77,7 +78,10 @@ def replay(
     settings: Annotated[
         list[str] | None,
         typer.Option(
-            "--set", metavar="KEY=VALUE", help="Another navigation.planner=..., say. Repeatable."
+            "--set",
+            metavar="KEY=VALUE",
+            help="Another navigation.planner=..., say. Repeatable.",
+            autocompletion=completion.settings,
         ),
     ] = None,
     out: Annotated[

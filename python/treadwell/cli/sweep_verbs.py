@@ -6,6 +6,7 @@ from typing import Annotated, Final
 
 import typer
 
+from treadwell.cli import completion
 from treadwell.cli.options import JsonOption, NoUserCodeOption, RobotOption, SetOption
 
 SWEEP_EXAMPLE: Final = (
@@ -25,7 +26,11 @@ class Where(StrEnum):
 def sweep(  # noqa: PLR0913 - one an option
     scenarios: Annotated[
         list[str] | None,
-        typer.Argument(metavar="SCENARIO...", help="Files or names; none with --suite."),
+        typer.Argument(
+            metavar="SCENARIO...",
+            help="Files or names; none with --suite.",
+            autocompletion=completion.scenarios,
+        ),
     ] = None,
     *,
     episodes: Annotated[
@@ -41,11 +46,22 @@ def sweep(  # noqa: PLR0913 - one an option
         int, typer.Option("--first-seed", metavar="N", min=0, help="The first seed, if not 0.")
     ] = 0,
     suite: Annotated[
-        str | None, typer.Option("--suite", metavar="NAME", help="A frozen list of episodes.")
+        str | None,
+        typer.Option(
+            "--suite",
+            metavar="NAME",
+            help="A frozen list of episodes.",
+            autocompletion=completion.suites,
+        ),
     ] = None,
     vary: Annotated[
         list[str] | None,
-        typer.Option("--vary", metavar="KEY=A,B,C", help="A variant for each value. Repeatable."),
+        typer.Option(
+            "--vary",
+            metavar="KEY=A,B,C",
+            help="A variant for each value. Repeatable.",
+            autocompletion=completion.settings,
+        ),
     ] = None,
     settings: SetOption = None,
     robot: RobotOption = None,

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.data import data_folder
+from treadwell.data import robot_names as robot_names
 from treadwell.errors import InputError
 from treadwell.mjcf.build import check_builds, compiled, read_spec
 from treadwell.mjcf.xml import check_xml
@@ -156,11 +157,6 @@ def load_folder(folder: Path) -> Robot:
     nominal = compiled(spec, str(model_path))
     check_robot(path, model_path, nominal, file)
     return Robot(name=folder.resolve().name, folder=folder, file=file, nominal=nominal)
-
-
-def robot_names() -> list[str]:
-    """Return the names of the robots that ship with the package."""
-    return sorted(path.parent.name for path in data_folder("models").glob("*/robot.toml"))
 
 
 def _find(name_or_path: str | Path) -> Path:

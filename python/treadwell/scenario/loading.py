@@ -9,6 +9,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from treadwell.data import data_folder
+from treadwell.data import scenario_names as scenario_names
 from treadwell.errors import InputError
 from treadwell.files import opened, read_content
 from treadwell.scenario.elements import named_file
@@ -103,11 +104,6 @@ def find_scenario(name_or_path: str | Path) -> Path:
         f"{shortened(text)}: no such file or scenario; scenarios: {', '.join(names)}"
         f"{nearest(stem, names)}"
     )
-
-
-def scenario_names() -> list[str]:
-    """Return the names of the scenarios that ship with the package, sorted."""
-    return sorted(path.stem for path in data_folder("scenarios").glob("*.toml"))
 
 
 def read_toml(path: Path) -> dict[str, Any]:
