@@ -42,9 +42,22 @@ def check_class(module: str, name: str, methods: Methods) -> None:
         kind = vars(loaded).get(name)
         if not isinstance(kind, type):
             raise InputError(f"{module} has no class {name}")
-        missing = [method for method in methods if not _takes(kind, method, methods[method])]
+        check_methods(kind, methods)
     else:
-        missing = _Reader().missing(module, name, methods)
+        _refuse(name, _Reader().missing(module, name, methods), methods)
+
+
+def check_methods(kind: type, methods: Methods) -> None:
+    """Make sure that a class that is there has these methods, and that they take their arguments.
+
+    Raises:
+        InputError: it has not; the sentence says which, without a place.
+    """
+    missing = [method for method in methods if not _takes(kind, method, methods[method])]
+    _refuse(kind.__name__, missing, methods)
+
+
+def _refuse(name: str, missing: Sequence[str], methods: Methods) -> None:
     if missing:
         listed = ", ".join(f"{method}({', '.join(methods[method])})" for method in missing)
         raise InputError(f"{name} has no method {listed}")

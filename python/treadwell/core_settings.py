@@ -10,7 +10,7 @@ from treadwell._core import Goal, Octree, Pilot
 from treadwell.errors import InputError
 from treadwell.guard import Guard
 from treadwell.plugins import (
-    check_component,
+    brought_component,
     foreign_parts,
     load_component,
     refuse_user_code,
@@ -141,15 +141,15 @@ def user_components(
 
     Args:
         scenario: names those to load, as `package.module:Class`.
-        given: objects that the caller brings; they beat the scenario's.
+        given: objects that the caller brings, or their classes; they beat the scenario's.
         user_code: False: the scenario may name no class.
 
     Raises:
         InputError: one cannot be loaded, lacks a method, or cannot do without a known start; or
             the scenario names a class and may not.
     """
-    for slot, component in given.items():
-        check_component(slot, component)
+    parameters = scenario.navigation.parameters()
+    brought = {slot: brought_component(slot, part, parameters) for slot, part in given.items()}
     if (
         not scenario.start.known
         and scenario.navigation.localizer in TOLD
@@ -161,7 +161,7 @@ def user_components(
         )
     where = str(scenario.path or scenario.name)
     slots = {slot: name for slot, name in scenario.navigation.slots().items() if slot not in given}
-    parts, parameters = foreign_parts(slots), scenario.navigation.parameters()
+    parts = foreign_parts(slots)
     if not user_code:
         refuse_user_code(parts, where)
     loaded = {}
@@ -171,7 +171,7 @@ def user_components(
             loaded[part.slot] = load_component(part.slot, part.name, own)
         except InputError as error:
             raise InputError(f"{where}: {error}") from error
-    return {**loaded, **given}
+    return {**loaded, **brought}
 
 
 def guards(

@@ -25,13 +25,14 @@ from treadwell.judging.verdict import Referee, Verdict
 from treadwell.observation import Observation
 from treadwell.physics.motors import JointTargets, LateTargets, strengths
 from treadwell.physics.simulation import TICK_NS, Simulation, Start
-from treadwell.plugins import class_path
+from treadwell.plugins import class_names, class_path
 from treadwell.protocols import Footstep, Pose
 from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import load_robot
 from treadwell.scenario.faults import Fault
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
+from treadwell.scenario.overrides import Overrides, with_settings
 from treadwell.senses.sensors import Sensors
 from treadwell.stage_times import StageTimes
 
@@ -99,9 +100,9 @@ class Episode:
         self,
         scenario: str | Path | Scenario,
         *,
-        robot: str | None = None,
+        robot: str | Path | None = None,
         seed: int | None = None,
-        overrides: tuple[str, ...] = (),
+        overrides: Overrides = (),
         user_code: bool = True,
         **components: object,
     ) -> None:
@@ -109,17 +110,18 @@ class Episode:
 
         Args:
             scenario: a name, a path, or a scenario that is already loaded.
-            robot: instead of the scenario's.
+            robot: its name or folder, instead of the scenario's.
             seed: instead of the scenario's.
-            overrides: settings `KEY=VALUE`, as `--set` takes them.
+            overrides: settings `KEY=VALUE`, as `--set` takes them, or a mapping of keys to values.
             user_code: False: a scenario that names a Python class is refused.
-            components: objects of the user's by slot, as in `planner=MyPlanner()`.
+            components: objects of the user's by slot, or their classes, as in `planner=MyPlanner`.
 
         Raises:
             InputError: anything that the user gave is bad.
         """
         if not isinstance(scenario, Scenario):
-            scenario = load_scenario(scenario, robot=robot, seed=seed, overrides=overrides)
+            settings = with_settings(overrides, class_names(components))
+            scenario = load_scenario(scenario, robot=robot, seed=seed, overrides=settings)
         self.scenario = scenario
         self.robot = load_robot(scenario.robot)
         self.course = build_course(scenario, self.robot)
@@ -149,10 +151,10 @@ class Episode:
         self.ablation = scenario.navigation.localizer == "truth" and "localizer" not in given
         if self.ablation:
             given["localizer"] = TruthLocalizer(self.judge, self.simulation.data)
-        settings = core_settings(scenario, self.robot, self.course)
+        told = core_settings(scenario, self.robot, self.course)
         static_map = told_map(scenario, self.course)
-        self.core_input = CoreInput(settings, self.robot.file.navigation, static_map, brought)
-        self.pilot = build_core(scenario, settings, given, static_map)
+        self.core_input = CoreInput(told, self.robot.file.navigation, static_map, brought)
+        self.pilot = build_core(scenario, told, given, static_map)
 
     def tick(self) -> Step:
         """Go on by one control tick.

@@ -4,6 +4,7 @@ A class that a scenario names is input: it is looked at first (`class_source`), 
 What an installed package brings by a name is the choice of whoever installed it.
 """
 
+import difflib
 import importlib
 import inspect
 from collections.abc import Mapping, Sequence
@@ -12,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from treadwell.additions import class_of
-from treadwell.class_source import check_class
-from treadwell.components import COMPONENTS
+from treadwell.class_source import check_class, check_methods
+from treadwell.components import CLASS_NAME, COMPONENTS
 from treadwell.errors import InputError
 from treadwell.module_source import locate
 from treadwell.protocols import Behaviour, Localizer, Planner, Segmenter, WorldModel
@@ -167,11 +168,53 @@ def load_component(slot: str, name: str, parameters: dict[str, Any]) -> object:
         _check_methods(slot, kind, class_name)
     else:
         part.examined()  # now of the class itself
+    return _made(kind, parameters, where, name)
+
+
+def brought_component(
+    slot: str, component: object, parameters: Mapping[str, dict[str, Any]]
+) -> object:
+    """Return what the caller brings for a slot, checked; a class is made first.
+
+    Args:
+        slot: which component it is to be.
+        component: an object, or its class.
+        parameters: the scenario's tables `[navigation.NAME]`; a class gets that of its name.
+
+    Raises:
+        InputError: the slot does not exist, a method is missing, or the class cannot be made.
+    """
+    if not isinstance(component, type) or slot not in COMPONENTS:
+        check_component(slot, component)
+        return component
+    try:
+        check_methods(component, arguments(slot))
+    except InputError as error:
+        raise InputError(f"{slot}: {class_path(component)}: {error}") from None
+    own = parameters.get(component.__name__, {})
+    return _made(component, own, slot, class_path(component))
+
+
+def _made(kind: type, parameters: dict[str, Any], where: str, name: str) -> object:
     try:
         component: object = kind(**parameters)
     except (Exception, SystemExit) as error:
         raise InputError(f"{where}: cannot make {name}: {error!r}") from error
     return component
+
+
+def class_names(components: Mapping[str, object]) -> dict[str, str]:
+    """Return the settings by which a scenario names the classes that a caller brings.
+
+    So it may have a table of their parameters, and says truly what it was run with. Of a class that
+    no scenario could name there is none.
+    """
+    return {
+        f"navigation.{slot}": name
+        for slot, component in components.items()
+        if slot in COMPONENTS and isinstance(component, type)
+        if CLASS_NAME.fullmatch(name := f"{component.__module__}:{component.__name__}")
+    }
 
 
 def check_component(slot: str, component: object) -> None:
@@ -181,7 +224,9 @@ def check_component(slot: str, component: object) -> None:
         InputError: the slot or a method does not exist.
     """
     if slot not in COMPONENTS:
-        raise InputError(f"{slot}: no such component; there are {', '.join(COMPONENTS)}")
+        near = difflib.get_close_matches(slot, COMPONENTS, n=1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        raise InputError(f"{slot}: no such component; there are {', '.join(COMPONENTS)}{hint}")
     _check_methods(slot, component, type(component).__name__)
 
 
@@ -192,6 +237,6 @@ def _check_methods(slot: str, component: object, name: str) -> None:
 
 
 def class_path(component: object) -> str:
-    """Return the class of an object as `package.module:Class`."""
-    kind = type(component)
+    """Return a class, or that of an object, as `package.module:Class`."""
+    kind = component if isinstance(component, type) else type(component)
     return f"{kind.__module__}:{kind.__qualname__}"

@@ -1,7 +1,6 @@
 """A whole run: one episode from start to verdict, and everything that is written of it."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -23,6 +22,7 @@ from treadwell.recording.run_folder import run_folder
 from treadwell.recording.tracing import trace_of
 from treadwell.recording.writers import NoWriters, Writers, open_viewer
 from treadwell.scenario.model import Scenario
+from treadwell.scenario.overrides import Overrides
 from treadwell.scores import Scores, result_of
 from treadwell.shell_limits import RECORDED_RUN, tightness
 
@@ -69,10 +69,10 @@ class Run:
 def run(  # noqa: PLR0913 - one an option
     scenario: str | Path | Scenario,
     *,
-    robot: str | None = None,
+    robot: str | Path | None = None,
     seed: int | None = None,
-    overrides: Sequence[str] = (),
-    out: Path | None = None,
+    overrides: Overrides = (),
+    out: str | Path | None = None,
     record: bool = True,
     view: bool = False,
     progress: Progress | None = None,
@@ -83,15 +83,17 @@ def run(  # noqa: PLR0913 - one an option
 
     Args:
         scenario: a name, a path, or a scenario that is already loaded.
-        robot: instead of the scenario's.
+        robot: its name or folder, instead of the scenario's.
         seed: instead of the scenario's; one seed gives one result on one kind of processor.
-        overrides: settings `KEY=VALUE`, as `--set` takes them.
+        overrides: settings `KEY=VALUE`, as `--set` takes them; or a mapping, as in
+            `{"navigation.fog.cell": 0.05}` or `{"navigation": {"fog": {"cell": 0.05}}}`.
         out: the folder; it must be new or empty.
         record: False leaves out the recording and the observations.
         view: show the physics in a window; needs the extra `view`.
         progress: is told how the run gets on.
         user_code: False: a scenario that names a Python class is refused.
-        components: objects of the user's by slot, as in `planner=MyPlanner()`.
+        components: objects of the user's by slot, or their classes, as in `planner=MyPlanner`: one
+            is made with the scenario's `[navigation.MyPlanner]` for its parameters.
 
     Raises:
         InputError: anything that the user gave is bad; nothing was written.
@@ -101,7 +103,7 @@ def run(  # noqa: PLR0913 - one an option
         scenario,
         robot=robot,
         seed=seed,
-        overrides=tuple(overrides),
+        overrides=overrides,
         user_code=user_code,
         **components,
     )
@@ -111,7 +113,7 @@ def run(  # noqa: PLR0913 - one an option
 def run_episode(
     episode: Episode,
     *,
-    out: Path | None = None,
+    out: str | Path | None = None,
     record: bool = True,
     view: bool = False,
     progress: Progress | None = None,
@@ -138,7 +140,8 @@ def run_episode(
     viewer = open_viewer(episode) if view else None
     scores = Scores(episode, watch)
     with Interruption() as interruption:
-        with run_folder(out, made.name, episode.robot.name, made.seed) as folder:
+        place = None if out is None else Path(out)
+        with run_folder(place, made.name, episode.robot.name, made.seed) as folder:
             writers = Writers(folder, episode, record=record, viewer=viewer)
         result, problem = _played(episode, scores, writers, progress, interruption)
         remembered = scores.memory.map()

@@ -1,9 +1,9 @@
 """A scenario as a Gymnasium environment: the agent takes the place of the behaviour."""
 
 import math
-from collections.abc import Sequence
 from copy import deepcopy
 from itertools import pairwise
+from pathlib import Path
 from typing import Any, Final, Literal
 
 import gymnasium
@@ -20,6 +20,7 @@ from treadwell.judging.verdict import Verdict
 from treadwell.physics.simulation import TICK_NS
 from treadwell.processor import likely_reason, processor
 from treadwell.scenario.loading import load_scenario
+from treadwell.scenario.overrides import Overrides
 
 GOAL_REWARD: Final = 10.0
 FALL_REWARD: Final = -10.0
@@ -48,11 +49,11 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
 
     def __init__(
         self,
-        scenario: str = "obstacle_course",
-        robot: str | None = None,
+        scenario: str | Path = "obstacle_course",
+        robot: str | Path | None = None,
         *,
         actions: Literal["velocity", "footsteps"] = "velocity",
-        overrides: Sequence[str] = (),
+        overrides: Overrides = (),
         render_mode: str | None = None,
         user_code: bool = True,
     ) -> None:
@@ -60,9 +61,9 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
 
         Args:
             scenario: a name or a path.
-            robot: instead of the scenario's.
+            robot: its name or folder, instead of the scenario's.
             actions: what the agent does.
-            overrides: settings `KEY=VALUE`, as `--set` takes them.
+            overrides: settings `KEY=VALUE`, as `--set` takes them, or a mapping of keys to values.
             render_mode: None, or `rgb_array`: the course from above.
             user_code: False: a scenario that names a Python class is refused.
 
@@ -74,7 +75,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         if actions not in {"velocity", "footsteps"}:
             raise InputError(f"actions: found {actions!r}; must be 'velocity' or 'footsteps'")
         self.render_mode = render_mode
-        self._asked: dict[str, Any] = {"robot": robot, "overrides": tuple(overrides)}
+        self._asked: dict[str, Any] = {"robot": robot, "overrides": deepcopy(overrides)}
         self._scenario = scenario
         self._kind = actions
         self._user_code = user_code

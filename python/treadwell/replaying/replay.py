@@ -12,6 +12,7 @@ from treadwell.errors import CoreError, InputError
 from treadwell.guard import GuardedCore
 from treadwell.interruption import Interruption
 from treadwell.measuring.measures import timing
+from treadwell.plugins import class_names
 from treadwell.progress import Progress
 from treadwell.recording.core_products import known_occupied
 from treadwell.recording.log_file import BrokenLogError
@@ -23,6 +24,7 @@ from treadwell.replaying.findings import Findings
 from treadwell.replaying.folder import write_folder
 from treadwell.replaying.result import FirstDifference, ReplayFacts, ReplayResult
 from treadwell.replaying.source import Source, open_source
+from treadwell.scenario.overrides import Overrides, with_settings
 from treadwell.version import __version__
 
 
@@ -52,8 +54,8 @@ class Replay:
 def replay(
     run_dir: str | Path,
     *,
-    overrides: Sequence[str] = (),
-    out: Path | None = None,
+    overrides: Overrides = (),
+    out: str | Path | None = None,
     progress: Progress | None = None,
     user_code: bool = True,
     **components: object,
@@ -62,17 +64,19 @@ def replay(
 
     Args:
         run_dir: the run's folder.
-        overrides: settings `KEY=VALUE` of `navigation`, as `--set` takes them.
+        overrides: settings of `navigation`: `KEY=VALUE`, as `--set` takes them, or a mapping of
+            keys to values.
         out: the folder; it must be new or empty. None: a new one beside the run's.
         progress: is told how it gets on.
         user_code: False: a run whose scenario names a Python class is refused.
-        components: objects of the user's by slot, as in `planner=MyPlanner()`.
+        components: objects of the user's by slot, or their classes, as in `planner=MyPlanner`.
 
     Raises:
         InputError: anything that the user gave is bad; nothing was written.
         RecordingError: the folder cannot be written.
     """
-    source = open_source(Path(run_dir), tuple(overrides), tuple(components))
+    settings = with_settings(overrides, class_names(components))
+    source = open_source(Path(run_dir), settings, tuple(components))
     return replay_source(
         source, run_dir, out=out, progress=progress, user_code=user_code, **components
     )
@@ -82,7 +86,7 @@ def replay_source(
     source: Source,
     run_dir: str | Path,
     *,
-    out: Path | None = None,
+    out: str | Path | None = None,
     progress: Progress | None = None,
     user_code: bool = True,
     **components: object,
@@ -93,7 +97,7 @@ def replay_source(
     given.update(guarded)
     pilot = build_core(source.scenario, source.core.settings, given, source.core.static_map)
     core = GuardedCore(pilot, guarded)
-    folder = make_folder_beside(out, Path(run_dir), "replay")
+    folder = make_folder_beside(None if out is None else Path(out), Path(run_dir), "replay")
     found, begin, interrupted = Findings(), perf_counter(), False
     with Interruption() as interruption:
         try:

@@ -16,7 +16,13 @@ from treadwell.recording import observation_log as log
 from treadwell.recording.log_file import Front, read_front
 from treadwell.scenario.messages import describe, report
 from treadwell.scenario.model import Scenario
-from treadwell.scenario.overrides import assign, parse_setting, split_key
+from treadwell.scenario.overrides import (
+    Overrides,
+    assign,
+    mentioned,
+    read_overrides,
+    split_key,
+)
 
 _OBSERVED: Final = (
     "a replay changes navigation.* alone: what the robot did and sensed is recorded as it was"
@@ -47,14 +53,12 @@ class Source:
         return self.header.get("joints", "").split(",")
 
 
-def open_source(
-    run_dir: Path, overrides: Sequence[str] = (), brought: Sequence[str] = ()
-) -> Source:
+def open_source(run_dir: Path, overrides: Overrides = (), brought: Sequence[str] = ()) -> Source:
     """Read what a run was, and change what is asked for.
 
     Args:
         run_dir: the run's folder.
-        overrides: settings `KEY=VALUE` of `navigation`.
+        overrides: settings of `navigation`: `KEY=VALUE`, or a mapping of keys to values.
         brought: slots for which the caller has an object of its own.
 
     Raises:
@@ -72,7 +76,7 @@ def open_source(
     recorded = _scenario(configuration, (), path)
     scenario = _scenario(configuration, overrides, path) if overrides else recorded
     given = {str(k): str(v) for k, v in _part(core, "given", path).items()}
-    asked = {split_key(parse_setting(setting)[0])[-1] for setting in overrides}
+    asked = {split_key(key)[-1] for key, _ in read_overrides(overrides)}
     _check_parts(scenario, given, asked, brought, path)
     settings = _part(core, "settings", path)
     of_robot = _part(core, "robot_navigation", path)
@@ -84,18 +88,17 @@ def open_source(
     return Source(path, header, scenario, made, bool(overrides or brought))
 
 
-def _scenario(configuration: dict[str, Any], overrides: Sequence[str], path: Path) -> Scenario:
+def _scenario(configuration: dict[str, Any], overrides: Overrides, path: Path) -> Scenario:
     raw: dict[str, Any] = json.loads(json.dumps(configuration))
-    lines = []
-    for setting in overrides:
-        key, value = parse_setting(setting)
+    lines, given = [], mentioned(overrides)
+    for key, value in read_overrides(overrides):
         words = split_key(key)
         if words[0] != "navigation" or len(words) < 2:
-            raise InputError(f"--set {key}: {_OBSERVED}")
+            raise InputError(f"{given} {key}: {_OBSERVED}")
         try:
             assign(raw, key, value)
         except InputError as error:
-            lines.append(f"--set {error}")
+            lines.append(f"{given} {error}")
     try:
         scenario = Scenario.model_validate(raw)
     except ValidationError as error:

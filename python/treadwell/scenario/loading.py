@@ -16,7 +16,14 @@ from treadwell.scenario.elements import named_file
 from treadwell.scenario.events import Add
 from treadwell.scenario.messages import describe, dotted, nearest, report, shortened, shown
 from treadwell.scenario.model import SEEDS, Scenario
-from treadwell.scenario.overrides import apply_draws, assign, parse_setting, split_key
+from treadwell.scenario.overrides import (
+    Overrides,
+    apply_draws,
+    assign,
+    mentioned,
+    read_overrides,
+    split_key,
+)
 
 LARGEST_FILE: Final = 1_000_000
 """Bytes of a scenario file."""
@@ -39,9 +46,9 @@ SUFFIXES: Final = {"mesh": (".stl", ".obj"), "mjcf": (".xml", ".mjcf"), "terrain
 def load_scenario(
     name_or_path: str | Path,
     *,
-    robot: str | None = None,
+    robot: str | Path | None = None,
     seed: int | None = None,
-    overrides: Sequence[str] = (),
+    overrides: Overrides = (),
 ) -> Scenario:
     """Return a scenario, ready to run.
 
@@ -51,7 +58,7 @@ def load_scenario(
         name_or_path: a path, or the name of a file that ships with the package.
         robot: a robot's name or folder, instead of the file's.
         seed: instead of the file's; the draws of `[vary]` depend on it.
-        overrides: settings `KEY=VALUE`, as `--set` takes them.
+        overrides: settings `KEY=VALUE`, as `--set` takes them, or a mapping of keys to values.
 
     Raises:
         InputError: with one message that names everything that is wrong.
@@ -159,10 +166,10 @@ def _add_course(raw: dict[str, Any], path: Path) -> None:
 
 
 def _apply(
-    raw: dict[str, Any], *, robot: str | None, seed: int | None, overrides: Sequence[str]
+    raw: dict[str, Any], *, robot: str | Path | None, seed: int | None, overrides: Overrides
 ) -> list[str]:
     """Apply settings, draws and flags in place, in the order of their rank."""
-    settings = [parse_setting(setting) for setting in overrides]
+    settings, word = read_overrides(overrides), mentioned(overrides)
     early = {i for i, (key, _) in enumerate(settings) if _first_word(key) in {"seed", "vary"}}
     lines: list[str] = []
 
@@ -171,7 +178,7 @@ def _apply(
             try:
                 assign(raw, *settings[i])
             except InputError as error:
-                lines.append(f"--set {error}")
+                lines.append(f"{word} {error}")
 
     assign_all(sorted(early))
     if seed is not None:
@@ -181,7 +188,7 @@ def _apply(
     lines += apply_draws(raw, drawn_from if usable and 0 <= drawn_from < SEEDS else 0)
     assign_all([i for i in range(len(settings)) if i not in early])
     if robot is not None:
-        raw["robot"] = robot
+        raw["robot"] = str(robot)
     return lines
 
 

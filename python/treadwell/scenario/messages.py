@@ -9,7 +9,7 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from treadwell.additions import known
-from treadwell.components import RENAMED, parameter_tables
+from treadwell.components import COMPONENTS, RENAMED, parameter_tables
 from treadwell.scenario.elements import ELEMENTS, MOVABLE
 from treadwell.scenario.events import EVENTS
 from treadwell.scenario.model import Expect, Goal, Navigation, Physics, Scenario, Sensors, Start
@@ -174,10 +174,17 @@ def _keys_at(path: Path, raw: Mapping[str, Any]) -> list[str]:
         model, extra = Scenario, ["vary"]
     elif len(path) == 1:
         model = TABLES.get(str(path[0]))
-        extra = parameter_tables() if path == ("navigation",) else []
+        extra = [*parameter_tables(), *_classes(raw)] if path == ("navigation",) else []
     elif path[0] == "course" or path[-1] == "element":
         model = ELEMENTS.get(str(value_at(raw, (*path, "kind"))))
     elif path[0] == "event":
         model = EVENTS.get(str(value_at(raw, (*path, "do"))))
     fields = model.model_fields if model is not None else {}
     return [field.alias or name for name, field in fields.items()] + extra
+
+
+def _classes(raw: Mapping[str, Any]) -> list[str]:
+    """Return the names of the user's classes that take a slot: each may have a table."""
+    table = raw.get("navigation")
+    chosen = [table.get(slot) for slot in COMPONENTS] if isinstance(table, Mapping) else []
+    return [name.rpartition(":")[2] for name in chosen if isinstance(name, str) and ":" in name]

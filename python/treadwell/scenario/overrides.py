@@ -2,8 +2,9 @@
 
 import tomllib
 import zlib
-from collections.abc import Mapping
-from typing import Annotated, Any, Self
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import PurePath
+from typing import Annotated, Any, Final, Self
 
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
@@ -16,6 +17,10 @@ from treadwell.scenario.values import element_names
 
 MOST_DRAWS = 100
 LONGEST_SETTING = 10_000
+DEEPEST: Final = 100
+"""Tables within each other."""
+Overrides = Sequence[str] | Mapping[str, Any]
+"""Settings `KEY=VALUE`; or keys, dotted or as tables within tables, with their values."""
 Number = Annotated[float, Field(ge=-1e6, le=1e6)]
 Pair = Annotated[tuple[Number, Number], Field(strict=False)]
 
@@ -72,6 +77,79 @@ def split_key(key: str) -> list[str]:
             "must be words with dots between them"
         )
     return words
+
+
+def read_overrides(overrides: Overrides) -> list[tuple[str, Any]]:
+    """Return dotted key and value of each override.
+
+    Args:
+        overrides: a sequence of `KEY=VALUE`, as `--set` takes them; or a mapping, as in
+            `{"navigation.fog.cell": 0.05}` or `{"navigation": {"fog": {"cell": 0.05}}}`. One
+            setting alone may be a string.
+
+    Raises:
+        InputError: one has no key, or a value that no scenario can have.
+    """
+    if isinstance(overrides, Mapping):
+        return list(_flat(overrides, ()))
+    listed = (overrides,) if isinstance(overrides, str) else overrides
+    for setting in listed:
+        if not isinstance(setting, str):
+            raise InputError(
+                f"overrides: found {shown(setting)}; must be KEY=VALUE, or all a mapping of keys "
+                "to values"
+            )
+    return [parse_setting(setting) for setting in listed]
+
+
+def mentioned(overrides: Overrides) -> str:
+    """Return what an error calls overrides: as they were given."""
+    return "overrides" if isinstance(overrides, Mapping) else "--set"
+
+
+def with_settings(overrides: Overrides, settings: Mapping[str, str]) -> Overrides:
+    """Return overrides with further settings behind them, which beat them."""
+    if isinstance(overrides, Mapping):
+        return {**overrides, **settings}
+    listed = (overrides,) if isinstance(overrides, str) else overrides
+    return (*listed, *(f"{key}={value}" for key, value in settings.items()))
+
+
+def _flat(table: Mapping[Any, Any], path: tuple[str, ...]) -> Iterator[tuple[str, Any]]:
+    """Yield dotted key and value of what stands in a table, and in the tables within it."""
+    if len(path) > DEEPEST:
+        raise InputError("overrides: nested too deep")
+    for key, value in table.items():
+        if not isinstance(key, str):
+            raise InputError(f"overrides: found the key {shown(key)}; must be a text")
+        in_vary = path == ("vary",)  # its keys are dotted ones, each with a table
+        words = (*path, *((key,) if in_vary else split_key(key)))
+        if isinstance(value, Mapping) and not in_vary:
+            yield from _flat(value, words)
+        else:
+            dotted = ".".join(f'"{word}"' if "." in word else word for word in words)
+            yield dotted, _plain(value, shortened(dotted), 0)
+
+
+def _plain(value: object, key: str, depth: int) -> object:
+    """Return a value as TOML could have it."""
+    if isinstance(value, np.generic | np.ndarray):
+        value = value.tolist()
+    if isinstance(value, bool | int | float | str):
+        return value
+    if isinstance(value, PurePath):
+        return str(value)
+    if depth > DEEPEST:
+        raise InputError(f"overrides: {key}: nested too deep")
+    if isinstance(value, list | tuple):
+        return [_plain(item, key, depth + 1) for item in value]
+    if isinstance(value, Mapping):
+        return {str(name): _plain(item, key, depth + 1) for name, item in value.items()}
+    kind = f"the class {value.__name__}" if isinstance(value, type) else type(value).__name__
+    raise InputError(
+        f"overrides: {key}: found {kind}; must be a number, a text, true or false, or a list or "
+        "mapping of these"
+    )
 
 
 def parse_setting(setting: str) -> tuple[str, Any]:
