@@ -1,6 +1,5 @@
 """What a shell is offered where a name is due, and that bash inserts it rightly."""
 
-import os
 import stat
 import subprocess
 import sys
@@ -29,7 +28,7 @@ def offered(
     monkeypatch.setenv("COMP_WORDS", "\n".join(["treadwell", *words]))
     monkeypatch.setenv("COMP_CWORD", str(len(words)))
     monkeypatch.setenv(ASKED, "complete_bash")
-    completion.prepare(os.environ)
+    completion.prepare()
     with pytest.raises(SystemExit) as done:
         execute([])
     assert done.value.code == 0

@@ -214,10 +214,11 @@ def test_unnamed_elements_are_called_by_kind_and_number() -> None:
 
 
 def test_flags_beat_settings_which_beat_draws_which_beat_the_file(tmp_path: Path) -> None:
-    text = 'schema = 1\nname = "x"\nrobot = "file"\nseed = 1\n[start]\nyaw = 1.0\n[goal]\n'
+    text = 'schema = 1\nname = "x"\nrobot = "nao"\nseed = 1\n[start]\nyaw = 1.0\n[goal]\n'
     text += '[vary]\n"start.yaw" = { choice = [2.0] }\n'
     path = write(tmp_path, text)
     assert load_scenario(path).start.yaw == 2.0
+    assert load_scenario(path).robot == "nao"
     assert load_scenario(path, overrides=["start.yaw=3.0"]).start.yaw == 3.0
     set_both = ["seed=2", "robot=set"]
     assert load_scenario(path, overrides=set_both).seed == 2

@@ -1,6 +1,5 @@
 """The command line `treadwell`: its verbs, their options, and the exit status of each."""
 
-import os
 import signal
 import sys
 from collections.abc import Sequence
@@ -14,12 +13,14 @@ from treadwell.cli import completion, list_verbs, run_verbs, sweep_verbs
 from treadwell.cli import map as map_verb
 from treadwell.cli import serve as serve_verb
 from treadwell.cli.options import (
+    InstallCompletionOption,
     JsonOption,
     NoUserCodeOption,
     RobotOption,
     ScenarioArgument,
     SeedOption,
     SetOption,
+    ShowCompletionOption,
 )
 from treadwell.cli.output import ERROR, INTERRUPTED, PASSED, guarded, write_json
 from treadwell.interruption import SIGNALS, leave_terminal
@@ -43,14 +44,8 @@ def _options(
     context: typer.Context,
     *,
     version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False,
-    show_completion: Annotated[
-        completion.Shell | None,
-        typer.Option("--show-completion", help="Show what makes a shell complete our words."),
-    ] = None,
-    install_completion: Annotated[
-        completion.Shell | None,
-        typer.Option("--install-completion", help="Put that where new shells read it."),
-    ] = None,
+    show_completion: ShowCompletionOption = None,
+    install_completion: InstallCompletionOption = None,
 ) -> None:
     if version:
         from treadwell.version import __version__
@@ -291,7 +286,7 @@ def main() -> None:
         for number in (signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) != signal.SIG_IGN:
                 signal.signal(number, stop)
-        completion.prepare(os.environ)
+        completion.prepare()
         status = execute(sys.argv[1:])
     except KeyboardInterrupt:
         pass

@@ -3,7 +3,7 @@
 Each function here is asked at a press of the tab key, and imports what it needs then.
 """
 
-from collections.abc import MutableMapping
+import os
 from enum import StrEnum
 from typing import Final
 
@@ -82,9 +82,9 @@ def install(shell: Shell | None) -> None:
     raise typer.Exit
 
 
-def prepare(environment: MutableMapping[str, str]) -> None:
+def prepare() -> None:
     """Make ready to answer where a shell's script asks; else do nothing."""
-    if environment.get(ASKED):
+    if os.environ.get(ASKED):
         from typer._completion_classes import completion_init
 
         completion_init()

@@ -47,3 +47,11 @@ JsonOption = Annotated[
 NoUserCodeOption = Annotated[
     bool, typer.Option("--no-user-code", help="Refuse a scenario that names a Python class.")
 ]
+ShowCompletionOption = Annotated[
+    completion.Shell | None,
+    typer.Option("--show-completion", help="Show what makes a shell complete our words."),
+]
+InstallCompletionOption = Annotated[
+    completion.Shell | None,
+    typer.Option("--install-completion", help="Put that where new shells read it."),
+]

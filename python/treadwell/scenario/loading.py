@@ -3,12 +3,13 @@
 import re
 import tomllib
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
 from pydantic import ValidationError
 
-from treadwell.data import data_folder
+from treadwell.data import data_folder, robot_names
 from treadwell.data import scenario_names as scenario_names
 from treadwell.errors import InputError
 from treadwell.files import opened, read_content
@@ -56,7 +57,8 @@ def load_scenario(
 
     Args:
         name_or_path: a path, or the name of a file that ships with the package.
-        robot: a robot's name or folder, instead of the file's.
+        robot: a robot's name or folder, instead of the file's. A folder is looked for from the
+            working folder, as one of `overrides`; the file's own from the file's folder.
         seed: instead of the file's; the draws of `[vary]` depend on it.
         overrides: settings `KEY=VALUE`, as `--set` takes them, or a mapping of keys to values.
 
@@ -66,7 +68,10 @@ def load_scenario(
     path = find_scenario(name_or_path)
     raw = read_toml(path)
     _add_course(raw, path)
-    lines = _apply(raw, robot=robot, seed=seed, overrides=overrides)
+    settings = read_overrides(overrides)
+    lines = _apply(raw, settings, mentioned(overrides), robot=robot, seed=seed)
+    asked = robot is not None or any(split_key(key)[0] == "robot" for key, _ in settings)
+    fault = _place_robot(raw, None if asked else path.parent)
     scenario, untold = None, 0
     try:
         scenario = Scenario.model_validate(raw)
@@ -78,7 +83,7 @@ def load_scenario(
         lines.append("nested too deep")
     if scenario is not None:
         scenario._path = path
-        lines += _check_files(scenario, raw)
+        lines += [*([fault] if fault else []), *_check_files(scenario, raw)]
     if scenario is None or lines:
         raise InputError(report(str(path), lines, untold))
     return scenario
@@ -166,10 +171,14 @@ def _add_course(raw: dict[str, Any], path: Path) -> None:
 
 
 def _apply(
-    raw: dict[str, Any], *, robot: str | Path | None, seed: int | None, overrides: Overrides
+    raw: dict[str, Any],
+    settings: Sequence[tuple[str, Any]],
+    word: str,
+    *,
+    robot: str | Path | None,
+    seed: int | None,
 ) -> list[str]:
     """Apply settings, draws and flags in place, in the order of their rank."""
-    settings, word = read_overrides(overrides), mentioned(overrides)
     early = {i for i, (key, _) in enumerate(settings) if _first_word(key) in {"seed", "vary"}}
     lines: list[str] = []
 
@@ -190,6 +199,35 @@ def _apply(
     if robot is not None:
         raw["robot"] = str(robot)
     return lines
+
+
+def _place_robot(raw: dict[str, Any], folder: Path | None) -> str:
+    """Make a robot's folder absolute in place, so that what is written of the run finds it, too.
+
+    Args:
+        raw: the file's tables.
+        folder: from where it is looked for; None: the working folder, and what is not there is
+            left as it is.
+
+    Returns:
+        What is wrong with it, a line; nothing where all is well or will be told otherwise.
+    """
+    text = raw.get("robot")
+    names = robot_names()
+    if not isinstance(text, str) or not text or text in names:
+        return ""
+    place = (folder or Path()) / text
+    with suppress(OSError, RuntimeError, ValueError):  # what no folder can be called
+        if (place / "robot.toml").is_file():
+            raw["robot"] = str(place.resolve())
+            return ""
+    if folder is None:
+        return ""
+    return (
+        f"robot: found {shown(text)}; must be one of {', '.join(names)}, or the path of a robot's "
+        f"folder from this file's: there is no {shortened(str(place / 'robot.toml'))}"
+        f"{nearest(text, names)}"
+    )
 
 
 def _first_word(key: str) -> str:

@@ -171,7 +171,7 @@ class Scenario(Table):
     description: Annotated[str, Field(max_length=500)] = ""
     """One line for `treadwell list scenarios`."""
     robot: Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]{1,500}$")] = "qrio"
-    """A robot of `treadwell list robots`, or the path to a robot's folder."""
+    """A robot of `treadwell list robots`, or the path to a robot's folder from this file's."""
     seed: Annotated[int, Field(ge=0, lt=SEEDS)] = 0
     """What all that is random is drawn from: one seed, one result on one kind of processor."""
     time_limit: Annotated[Seconds, Field(ge=0.001)] = 120.0
