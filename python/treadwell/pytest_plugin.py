@@ -1,8 +1,9 @@
 """The pytest plugin: a scenario file is a test, passed when it meets its expectations."""
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import pytest
 
@@ -14,6 +15,10 @@ if TYPE_CHECKING:
 
 _RUNS = "treadwell_runs"
 _NO_USER_CODE = "--treadwell-no-user-code"
+_SEEDS = "treadwell_seeds"
+_SEEDS_OPTION = "--treadwell-seeds"
+_SEEDS_OF_CONFIG: Final = pytest.StashKey[tuple[int, ...]]()
+MOST_SEEDS: Final = 10_000
 
 
 class ScenarioFailedError(Exception):
@@ -21,16 +26,48 @@ class ScenarioFailedError(Exception):
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Let a folder for the runs of failed scenarios be chosen, and the user's code be refused."""
+    """Let seeds and the folder for failed runs be chosen, and the user's code be refused."""
     parser.addoption(
         _NO_USER_CODE, action="store_true", help="refuse scenarios that name a Python class"
     )
+    parser.addoption(
+        _SEEDS_OPTION, metavar="SEEDS", help="run each scenario file once a seed: 0-4, or 0,3,7"
+    )
     parser.addini(_RUNS, "folder for the runs of failed scenarios", default="runs/pytest")
+    parser.addini(_SEEDS, f"seeds of scenario files where {_SEEDS_OPTION} names none", default="")
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the marker that every scenario has."""
+    """Register the marker that every scenario has; read the seeds."""
     config.addinivalue_line("markers", "scenario: closed-loop episodes of a scenario file")
+    asked = config.getoption(_SEEDS_OPTION)
+    word, text = (_SEEDS, config.getini(_SEEDS)) if asked is None else (_SEEDS_OPTION, asked)
+    try:
+        config.stash[_SEEDS_OF_CONFIG] = read_seeds(str(text)) if text or asked == "" else ()
+    except InputError as error:
+        raise pytest.UsageError(f"{word}: {error}") from None
+
+
+def read_seeds(text: str) -> tuple[int, ...]:
+    """Return the seeds that a text names: `5`, `0,3,7`, `0-4`, `0-4,9`; each once, in its order.
+
+    Raises:
+        InputError: it is none of that, or names too many.
+    """
+    fault = f"found {text!r}; must be seeds from 0 on, as in 5, 0,3,7 or 0-4"
+    seeds: dict[int, None] = {}
+    for part in text.split(","):
+        ends = re.fullmatch(r"\s*(\d{1,15})\s*(?:-\s*(\d{1,15})\s*)?", part, re.ASCII)
+        if ends is None:
+            raise InputError(fault)
+        first = int(ends[1])
+        last = first if ends[2] is None else int(ends[2])
+        if last < first:
+            raise InputError(fault)
+        if last - first >= MOST_SEEDS or len(seeds) > MOST_SEEDS:
+            raise InputError(f"found {text!r}, which is more than {MOST_SEEDS} seeds")
+        seeds.update(dict.fromkeys(range(first, last + 1)))
+    return tuple(seeds)
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
@@ -56,21 +93,34 @@ class ScenarioFile(pytest.File):
     """A scenario file."""
 
     def collect(self) -> Iterator[pytest.Item]:
-        """Yield the one test that it is."""
-        yield ScenarioItem.from_parent(self, name=self.path.stem)
+        """Yield the one test that it is; or, where seeds are asked for, one a seed."""
+        for seed in self.config.stash[_SEEDS_OF_CONFIG]:
+            yield ScenarioItem.from_parent(self, name=f"{self.path.stem}[seed-{seed}]", seed=seed)
+        if not self.config.stash[_SEEDS_OF_CONFIG]:
+            yield ScenarioItem.from_parent(self, name=self.path.stem)
 
 
 class ScenarioItem(pytest.Item):
-    """The run of a scenario."""
+    """The run of a scenario.
 
-    def __init__(self, **kwargs: Any) -> None:  # noqa: ANN401 - pytest's own arguments
+    Attributes:
+        seed: instead of the file's own; None: the file's.
+    """
+
+    def __init__(self, *, seed: int | None = None, **kwargs: Any) -> None:  # noqa: ANN401 - pytest's own arguments
         """Mark it as a scenario, so that `-m` can choose."""
         super().__init__(**kwargs)
+        self.seed = seed
         self.add_marker("scenario")
 
     def runtest(self) -> None:
         """Run it."""
-        run_scenario(self.path, runs_folder(self.config), user_code=user_code(self.config))
+        run_scenario(
+            self.path,
+            runs_folder(self.config),
+            seed=self.seed,
+            user_code=user_code(self.config),
+        )
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], *_: object) -> str:
         """Return what was not met and where the run lies, without a traceback of ours."""
@@ -80,7 +130,7 @@ class ScenarioItem(pytest.Item):
 
     def reportinfo(self) -> tuple[Path, None, str]:
         """Return where the test is and what it is called."""
-        return self.path, None, f"scenario {self.path.stem}"
+        return self.path, None, f"scenario {self.name}"
 
 
 @pytest.fixture
@@ -104,12 +154,19 @@ def user_code(config: pytest.Config) -> bool:
     return not config.getoption(_NO_USER_CODE)
 
 
-def run_scenario(scenario: str | Path, runs: Path, **options: Any) -> "Result":  # noqa: ANN401
+def run_scenario(
+    scenario: str | Path,
+    runs: Path,
+    *,
+    seed: int | None = None,
+    **options: Any,  # noqa: ANN401
+) -> "Result":
     """Run a scenario; its folder stays when it fails and goes when it passes.
 
     Args:
         scenario: name or path.
         runs: folder in which the run's own folder is made.
+        seed: instead of the scenario's; None: the scenario's.
         options: as for `treadwell.run`.
 
     Raises:
@@ -120,8 +177,9 @@ def run_scenario(scenario: str | Path, runs: Path, **options: Any) -> "Result": 
 
     import treadwell
 
-    out = free_folder(runs, Path(scenario).stem)
-    run = treadwell.run(scenario, out=out, **options)
+    name = Path(scenario).stem + ("" if seed is None else f"-{seed}")
+    out = free_folder(runs, name)
+    run = treadwell.run(scenario, seed=seed, out=out, **options)
     if not run.passed:
         said = "\n".join(f"  {failure}" for failure in run.result.failures)
         raise ScenarioFailedError(
