@@ -169,3 +169,19 @@ def entities(path: Path) -> set[str]:
         # A file whose writer was stopped has no table of contents; reading it takes longer.
         warnings.simplefilter("ignore")
         return {str(chunk.entity_path) for chunk in RrdReader(path).stream().to_chunks()}
+
+
+def shown_as(path: Path) -> tuple[str, str]:
+    """Return what rerun's viewer calls a recording: its application, and its own name."""
+    from rerun.chunk import RrdReader
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        reader = RrdReader(path)
+        (store,) = reader.recordings()
+        (name,) = [
+            table.column("RecordingInfo:name").to_pylist()[0][0]
+            for chunk in reader.stream().to_chunks()
+            if "RecordingInfo:name" in (table := chunk.to_record_batch()).schema.names
+        ]
+    return store.application_id, name

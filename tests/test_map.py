@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from episode_builders import shown_as
 from numpy.typing import NDArray
 from source_builders import data, needs_data
 
@@ -118,6 +119,7 @@ def test_the_folder_holds_map_picture_way_and_result(pictures: Path, tmp_path: P
     assert execute(["map", str(pictures), "--out", str(out), "--world-model", "elevation"]) == 0
     names = {path.name for path in out.iterdir()}
     assert names == {"map.npz", "map.png", "recording.rrd", "result.json", "trajectory.tum"}
+    assert shown_as(out / "recording.rrd") == ("treadwell_map", pictures.name)
     result = json.loads((out / "result.json").read_text())
     assert result["schema"] == "treadwell.map/1"
     assert (result["frames"], result["frames_used"], result["unused"]) == (4, 4, {})

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from episode_builders import BOX, STEP, World, entities, flight, qrio, trace, world
+from episode_builders import BOX, STEP, World, entities, flight, qrio, shown_as, trace, world
 
 from treadwell.errors import InputError, RecordingError
 from treadwell.footstep_plan import FootstepPlan, PlannedFootstep
@@ -54,6 +54,14 @@ def test_a_recording_holds_world_map_camera_states_and_plots(tmp_path: Path, mad
         "/error",
         "/timing",
     } <= found
+
+
+def test_the_viewer_shows_scenario_robot_and_seed_as_the_recordings_name(
+    tmp_path: Path, made: World
+) -> None:
+    recorder(tmp_path, made).close()
+    name = f"{made.scenario.name}-qrio-{made.scenario.seed}"
+    assert shown_as(tmp_path / NAME) == ("treadwell", name)
 
 
 def test_stairs_climbs_landings_and_missteps_are_in_the_recording(

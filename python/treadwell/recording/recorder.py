@@ -79,12 +79,13 @@ class Recorder:
         top = max((t.height for _, t in course.tops()), default=0.0)
         begin = (*course.start.position, course.start.height)
         centre, extent = _middle_and_extent(scenario, course)
+        name = f"{scenario.name}-{robot.name}-{scenario.seed}"
         try:
             path.touch()
             self._check_room()
             self._stream = rr.RecordingStream(
                 "treadwell",
-                recording_id=f"{scenario.name}-{robot.name}-{scenario.seed}",
+                recording_id=name,
                 send_properties=False,
             )
             views = blueprint(
@@ -96,6 +97,7 @@ class Recorder:
             )
             # A table of contents would take memory, 14 kB with each batch of each entity.
             self._stream.save(path, views, write_footer=False)
+            self._stream.send_recording_name(name)
         except (OSError, RuntimeError) as error:
             raise RecordingError(f"{path}: cannot be written: {_reason(error)}") from error
         self._stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
