@@ -25,6 +25,7 @@ from treadwell.scenario.model import Scenario
 from treadwell.scenario.overrides import Overrides
 from treadwell.scores import Scores, result_of
 from treadwell.shell_limits import RECORDED_RUN, tightness
+from treadwell.summary import html_table, result_line, result_rows, result_title
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +64,15 @@ class Run:
     @property
     def document(self) -> dict[str, Any]:
         """The result as plain data, as in the file."""
-        return self.result.model_dump(mode="json", by_alias=True)
+        return self.result.document()
+
+    def __repr__(self) -> str:
+        return f"<Run {result_line(self.document)}; {self.folder}>"
+
+    def _repr_html_(self) -> str:
+        document = self.document
+        rows = [*result_rows(document), ("folder", self.folder)]
+        return html_table(result_title(document), rows)
 
 
 def run(  # noqa: PLR0913 - one an option

@@ -16,6 +16,7 @@ from treadwell.cli.output import (
 )
 from treadwell.cli.progress import ProgressLine
 from treadwell.plugins import examined, foreign_parts
+from treadwell.summary import replay_rows, replay_title
 
 
 def replay(
@@ -57,32 +58,4 @@ def replay(
 
 def show(document: Mapping[str, Any]) -> None:
     """Write the result as a table."""
-    facts = document["replay"]
-    error = ((document.get("localization") or {}).get("translation_error") or {}).get("mean")
-    rows: list[tuple[str, object]] = [
-        ("replayed", f"{document['simulated_seconds']:.2f} s, {facts['observations']} ticks"),
-        ("compared with the recording", compared(facts)),
-        ("declared", facts["declared"]),
-        ("reason", facts["reason"]),
-        ("error", facts["error"]),
-        ("real-time factor", f"{document['real_time_factor']:.1f}"),
-        ("core's share of the time", f"{_share(document):.0%}"),
-        ("localization error, mean", None if error is None else f"{error:.3f} m"),
-    ]
-    title = f"{document['scenario']} with {document['robot']}, seed {document['seed']}, replayed"
-    write_table(title, ("", ""), [row for row in rows if row[1] not in (None, "")])
-
-
-def compared(facts: Mapping[str, Any]) -> str:
-    """Return the sentence that says whether core and recording agree."""
-    first = facts["first_difference"]
-    if first is not None:
-        return f"first difference at tick {first['tick']} ({first['time']:.2f} s): {first['what']}"
-    if not facts["compared"]:
-        return "it holds no answers to compare with"
-    return f"the same in all {facts['compared']} ticks, bit for bit"
-
-
-def _share(document: Mapping[str, Any]) -> float:
-    core, wall = float(document["replay"]["core_seconds"]), float(document["wall_seconds"])
-    return core / max(wall, 1e-9)
+    write_table(replay_title(document), ("", ""), replay_rows(document))

@@ -17,6 +17,7 @@ from treadwell.cli.output import (
 from treadwell.cli.progress import ProgressLine
 from treadwell.plugins import examined, foreign_parts
 from treadwell.scenario.loading import load_scenario
+from treadwell.summary import result_rows, result_title
 
 STATUS: Final = {"interrupted": INTERRUPTED, "error": ERROR}
 """Outcomes that are not the robot's doing -> exit status."""
@@ -76,26 +77,4 @@ def exit_status(document: Mapping[str, Any]) -> int:
 
 def show(document: Mapping[str, Any]) -> None:
     """Write the result as a table."""
-    localization = document.get("localization") or {}
-    error = (localization.get("translation_error") or {}).get("mean")
-    rows: list[tuple[str, object]] = [
-        ("outcome", document["outcome"]),
-        ("reason", document.get("reason")),
-        ("passed", "yes" if document["passed"] else "no"),
-        ("failures", "; ".join(map(str, document.get("failures", [])))),
-        ("simulated time", _number(document.get("simulated_seconds"), "s", 1)),
-        ("real-time factor", _number(document.get("real_time_factor"), "", 1)),
-        ("falls", document.get("falls")),
-        ("collisions", len(document.get("collisions", []))),
-        ("steps taken", document.get("steps_taken")),
-        ("path length", _number(document.get("path_length"), "m", 2)),
-        ("replans", document.get("replans")),
-        ("localization error, mean", _number(error, "m", 3)),
-        ("ablation", "yes: the core was given the truth" if document.get("ablation") else None),
-    ]
-    title = f"{document['scenario']} with {document['robot']}, seed {document['seed']}"
-    write_table(title, ("", ""), [row for row in rows if row[1] not in (None, "")])
-
-
-def _number(value: float | None, unit: str, digits: int) -> str | None:
-    return None if value is None else f"{value:.{digits}f} {unit}".rstrip()
+    write_table(result_title(document), ("", ""), result_rows(document))

@@ -10,21 +10,14 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 from treadwell.errors import InputError
 from treadwell.files import read_text, write_text
 from treadwell.scenario.model import Expect
+from treadwell.summary import Shown
 
 LARGEST_RESULT: Final = 100_000_000
 """Bytes."""
 SCHEMA: Final = "treadwell.result/1"
 STAGES: Final = (
-    "physics",
-    "depth",
-    "segment",
-    "map",
-    "stairs",
-    "localize",
-    "plan",
-    "behave",
-    "walk",
-)
+    "physics", "depth", "segment", "map", "stairs", "localize", "plan", "behave", "walk"
+)  # fmt: skip
 """Keys of `timing_ms`."""
 
 Outcome = Literal["goal_reached", "refused", "fell", "timed_out", "stuck", "interrupted", "error"]
@@ -162,7 +155,7 @@ class Timing(Table):
     """How often it ran."""
 
 
-class Result(Table):
+class Result(Shown, Table):
     """Schema `treadwell.result/1`; the keys of `result.json`."""
 
     schema_: Annotated[Literal["treadwell.result/1"], Field(alias="schema")] = SCHEMA
@@ -232,14 +225,17 @@ class Result(Table):
         failures = unmet(self, expect)
         return self.model_copy(update={"failures": failures, "passed": not failures})
 
+    def document(self) -> dict[str, Any]:
+        """Return it as plain data, as in the file."""
+        return self.model_dump(mode="json", by_alias=True)
+
     def write(self, path: Path) -> None:
         """Write the file whole or not at all.
 
         Raises:
             OSError: the file cannot be written.
         """
-        table = self.model_dump(mode="json", by_alias=True)
-        write_text(path, json.dumps(table, indent=2, allow_nan=False) + "\n")
+        write_text(path, json.dumps(self.document(), indent=2, allow_nan=False) + "\n")
 
 
 def unmet(result: Result, expect: Expect) -> list[str]:

@@ -25,6 +25,7 @@ from treadwell.replaying.folder import write_folder
 from treadwell.replaying.result import FirstDifference, ReplayFacts, ReplayResult
 from treadwell.replaying.source import Source, open_source
 from treadwell.scenario.overrides import Overrides, with_settings
+from treadwell.summary import html_table, replay_line, replay_rows, replay_title
 from treadwell.version import __version__
 
 
@@ -49,6 +50,13 @@ class Replay:
         answered = facts.broken is not None or facts.compared == facts.observations
         same = facts.changed or (facts.first_difference is None and answered)
         return same and facts.error is None and not self.interrupted
+
+    def __repr__(self) -> str:
+        return f"<Replay {replay_line(self.result.document())}; {self.folder}>"
+
+    def _repr_html_(self) -> str:
+        document = self.result.document()
+        return html_table(replay_title(document), [*replay_rows(document), ("folder", self.folder)])
 
 
 def replay(

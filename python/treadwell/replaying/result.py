@@ -15,6 +15,7 @@ from treadwell.judging.result import (
     Table,
     Timing,
 )
+from treadwell.summary import ShownReplay
 
 
 class FirstDifference(Table):
@@ -46,7 +47,7 @@ class ReplayFacts(Table):
     core_seconds: float = 0.0
 
 
-class ReplayResult(Table):
+class ReplayResult(ShownReplay, Table):
     """The keys of `result.json` that are known without a simulator, and `replay`.
 
     `localization` is against the truth that the run recorded.
