@@ -10,6 +10,7 @@ from sweep_builders import row
 
 from treadwell.cli.app import execute
 from treadwell.comparing.comparison import Candidate, compared, differences, figure
+from treadwell.comparing.intervals import share_interval
 from treadwell.comparing.metrics import METRICS
 from treadwell.comparing.sides import candidates
 from treadwell.comparing.tables import comparison_tables
@@ -99,6 +100,20 @@ def test_failures_that_could_be_chance_are_no_difference() -> None:
     assert many["p_corrected"] > many["p"]
 
 
+def test_a_difference_has_its_interval_and_three_pairs_have_none() -> None:
+    first = side("a", *(row(i) for i in range(30)))
+    second = side("b", *(row(i, **FAILED) if i < 12 else row(i) for i in range(30)))
+    success = test_of(differences([first, second]), "success")
+    assert (success["low"], success["high"]) == share_interval(18, 12, 0, 0)
+    time = test_of(differences([first, second]), "time")
+    assert (time["low"], time["high"]) == (0.0, 0.0)
+    slower = side("b", *(row(i, simulated_seconds=300.0) for i in range(3)))
+    few = test_of(differences([first, slower]), "time")
+    assert few["low"] is few["high"] is None
+    shown = comparison_tables(compared([first, slower]))[-1]
+    assert ("b", "time s", "+269.0", "-", "3") in [cells[:5] for cells in shown.rows]
+
+
 def test_pairs_are_the_same_scenario_and_seed() -> None:
     first = side("a", *(row(i) for i in range(5)), row(7, scenario="doorway"))
     second = side("b", *(row(i) for i in range(3, 9)))
@@ -147,7 +162,7 @@ def test_the_command_shows_tables_json_and_markdown(
     assert len(document["differences"]) == 2 * len(METRICS)
     text = out.read_text()
     assert "| one | 20 | 100.0 % (83.9 to 100.0) |" in text
-    assert "| two x=2 | time s | +5.0 | 20 | " in text
+    assert "| two x=2 | time s | +5.0 | +5.0 to +5.0 | 20 | " in text
     assert execute(["compare", *names]) == 0
     shown = capsys.readouterr()
     assert "worse" in shown.out

@@ -1,17 +1,17 @@
 """Candidates side by side: each one's figures, and where it differs from the first."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import fmean, median
 from typing import Any, Final
 
+from treadwell.comparing.intervals import mean_interval, share_interval
 from treadwell.comparing.metrics import METRICS, Metric
-from treadwell.comparing.statistics import holm, mcnemar, permutation, wilson
+from treadwell.comparing.statistics import LEVEL, holm, mcnemar, permutation, wilson
 from treadwell.sweeps.row import Row
 
 SCHEMA: Final = "treadwell.comparison/1"
-LEVEL: Final = 0.05
-"""Of all tests together: a p below it, after Holm's correction, is a difference."""
 
 Pair = tuple[str, str, int]
 
@@ -102,9 +102,13 @@ def _difference(
     both = [(float(a), float(b)) for a, b in values if a is not None and b is not None]
     steps = [b - a for a, b in both]
     if metric.kind == "share":
-        p = mcnemar(sum(step < 0 for step in steps), sum(step > 0 for step in steps))
+        lost, won = sum(step < 0 for step in steps), sum(step > 0 for step in steps)
+        kept = sum(a > 0 for a, b in both) - lost
+        p = mcnemar(lost, won)
+        low, high = share_interval(kept, lost, won, len(both) - kept - lost - won)
     else:
         p = permutation(steps)
+        low, high = mean_interval(steps)
     mean = fmean(steps) if steps else None
     rises = mean is not None and mean > 0
     return {
@@ -113,6 +117,8 @@ def _difference(
         "other": other.name,
         "pairs": len(both),
         "difference": mean,
+        "low": low if both and math.isfinite(low) else None,
+        "high": high if both and math.isfinite(high) else None,
         "p": p if both else None,
         "p_corrected": None,
         "verdict": "no difference shown",

@@ -2,12 +2,16 @@
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 Z95: Final = 1.959963984540054
 """Two-sided 95 % quantile of the normal distribution."""
+LEVEL: Final = 0.05
+"""Of all tests together: a p below it, after Holm's correction, is a difference."""
 EXACT_UP_TO: Final = 14
 """Pairs up to which all signs are tried; above, `DRAWS` random ones."""
 DRAWS: Final = 20_000
@@ -45,14 +49,24 @@ def permutation(differences: Sequence[float]) -> float:
     if count == 0:
         return 1.0
     least = abs(float(values.sum())) * (1 - _TIE)
+    extreme = int((np.abs((1.0 - 2.0 * subsets(count)) @ values) >= least).sum())
+    if count <= EXACT_UP_TO:
+        return extreme / float(2**count)
+    return (1 + extreme) / (1 + DRAWS)
+
+
+@lru_cache(maxsize=1)  # of ten thousand pairs it is a gigabyte
+def subsets(count: int) -> NDArray[np.float64]:
+    """Return subsets of so many pairs, a row each: 1 for what is in it, else 0.
+
+    All of them up to `EXACT_UP_TO`, else `DRAWS` random ones, the same every time.
+    """
     if count <= EXACT_UP_TO:
         bits = np.arange(2**count)[:, None] >> np.arange(count)[None, :] & 1
-        sums = np.abs((1.0 - 2.0 * bits) @ values)
-        return float((sums >= least).mean())
+        return bits.astype(np.float64)
     generator = np.random.default_rng(0)
-    signs = generator.integers(0, 2, (DRAWS, count), dtype=np.int8) * 2.0 - 1.0
-    sums = np.abs(signs @ values)
-    return float((1 + int((sums >= least).sum())) / (1 + DRAWS))
+    signs = generator.integers(0, 2, (DRAWS, count), dtype=np.int8)
+    return 1.0 - signs.astype(np.float64)
 
 
 def holm(ps: Sequence[float]) -> list[float]:

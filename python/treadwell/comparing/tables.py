@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from treadwell.comparing.comparison import LEVEL
 from treadwell.comparing.metrics import METRICS, Metric
+from treadwell.comparing.statistics import LEVEL
 from treadwell.experiments.experiment import NOTHING, Table
 
 
@@ -82,12 +82,12 @@ def _differences(document: dict[str, Any]) -> Table:
         metric = titles[one["metric"]]
         if one["p"] is None or (one["difference"] == 0 and one["p"] == 1.0):
             continue
-        scale, unit = (100, " %") if metric.kind == "share" else (1, "")
         rows.append(
             (
                 one["other"],
                 metric.title,
-                f"{scale * one['difference']:+.{metric.digits}f}{unit}",
+                _step(metric, one["difference"]),
+                _interval(metric, one),
                 str(one["pairs"]),
                 f"{one['p_corrected']:.3g}",
                 one["verdict"],
@@ -96,10 +96,24 @@ def _differences(document: dict[str, Any]) -> Table:
     first = document["candidates"][0]["name"] if document["candidates"] else ""
     return Table(
         f"Against {first}",
-        ("", "figure", "difference", "pairs", "p", ""),
+        ("", "figure", "difference", "95 % interval", "pairs", "p", ""),
         tuple(rows),
         (
             "Pairs: the same scenario and seed. McNemar's exact test of shares, a permutation test "
-            f"of the rest, all corrected after Holm; a difference is one below {LEVEL:g}.",
+            f"of the rest, all corrected after Holm; a difference is one below {LEVEL:g}. "
+            "Intervals, of one difference each and not corrected: Newcombe's of shares, else what "
+            "the permutation test would not contradict; fewer than six pairs have none.",
         ),
     )
+
+
+def _step(metric: Metric, difference: float) -> str:
+    """Return a difference with its sign and unit."""
+    scale, unit = (100, " %") if metric.kind == "share" else (1, "")
+    return f"{scale * difference:+.{metric.digits}f}{unit}"
+
+
+def _interval(metric: Metric, one: dict[str, Any]) -> str:
+    if one["low"] is None or one["high"] is None:
+        return NOTHING
+    return f"{_step(metric, one['low'])} to {_step(metric, one['high'])}"
