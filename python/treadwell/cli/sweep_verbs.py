@@ -13,7 +13,9 @@ SWEEP_EXAMPLE: Final = (
     "Example: treadwell sweep slalom doorway --episodes 20 "
     "--vary navigation.world_model=fog,averaging --out runs/maps"
 )
-COMPARE_EXAMPLE: Final = "Example: treadwell compare runs/maps --out comparison.md"
+COMPARE_EXAMPLE: Final = (
+    "Example: treadwell compare runs/maps --out comparison.md --figure comparison.pdf"
+)
 
 
 class Where(StrEnum):
@@ -121,9 +123,17 @@ def compare(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE.md", help="Write the tables there.")
     ] = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option(
+            "--figure",
+            metavar="FILE.pdf|.svg|.png",
+            help="Draw it there for a paper: successes, differences, ways.",
+        ),
+    ] = None,
     as_json: JsonOption = False,
 ) -> int:
     """Put sweeps, and the variants of each, side by side; paired by scenario and seed."""
     from treadwell.cli import compare as cli_compare
 
-    return cli_compare.compare(sweep_dirs, out=out, as_json=as_json)
+    return cli_compare.compare(sweep_dirs, out=out, figure=figure, as_json=as_json)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from statistics import fmean, median
 from typing import Any, Final
 
@@ -23,10 +24,12 @@ class Candidate:
     Attributes:
         name: what it is called in the tables.
         rows: its episodes.
+        folder: of its sweep, in which recordings are; None: nobody knows of any.
     """
 
     name: str
     rows: tuple[Row, ...]
+    folder: Path | None = None
 
 
 def compared(candidates: Sequence[Candidate]) -> dict[str, Any]:
@@ -36,6 +39,7 @@ def compared(candidates: Sequence[Candidate]) -> dict[str, Any]:
         candidates: the first is what the others are held against.
     """
     scenarios = list(dict.fromkeys(row.scenario for one in candidates for row in one.rows))
+    found = differences(candidates)
     return {
         "schema": SCHEMA,
         "candidates": [
@@ -50,7 +54,8 @@ def compared(candidates: Sequence[Candidate]) -> dict[str, Any]:
             }
             for one in candidates
         ],
-        "differences": differences(candidates),
+        "tests": sum(one["p"] is not None for one in found),
+        "differences": found,
     }
 
 

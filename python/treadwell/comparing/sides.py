@@ -31,7 +31,8 @@ def candidates(folders: Sequence[Path]) -> list[Candidate]:
             words = [place.name] if len(folders) > 1 or not variant else []
             name = " ".join([*words, *([variant] if variant else [])])
             of_it = tuple(row for row in rows if row.variant == variant)
-            found.append(Candidate(_unused(name, [one.name for one in found], folder), of_it))
+            unused = _unused(name, [one.name for one in found], folder)
+            found.append(Candidate(unused, of_it, folder))
     return found
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from treadwell.careful_json import json_of
 from treadwell.errors import InputError
 from treadwell.files import read_text
-from treadwell.sweeps.folder import LARGEST
+from treadwell.sweeps.folder import LARGEST, kept_folder
 from treadwell.sweeps.journal import NAME as JOURNAL
 from treadwell.sweeps.journal import read_rows
 
@@ -137,25 +137,13 @@ def _row(
         reason=_text(row, "reason"),
         success=bool(success),
         end=None if x is None or y is None else (x, y),
-        folder=_kept(folder, row.get("folder", row.get("run", row.get("path")))),
+        folder=kept_folder(folder, row.get("folder", row.get("run", row.get("path")))),
         settings=tuple(str(each) for each in line.get("settings") or ()),
         seconds=_number(row.get("simulated_seconds")),
         error=_number(row.get("translation_error_mean")),
         source=line.get("file") or key[0],
         robot_given=line["robot_given"] if "robot_given" in line else key[1] or None,
     )
-
-
-def _kept(folder: Path, named: Any) -> Path | None:  # noqa: ANN401
-    """Return the folder of a kept run, which lies in the sweep's."""
-    if not isinstance(named, str) or not named or "\x00" in named:
-        return None
-    try:
-        path = folder / named
-        inside = path.resolve().is_relative_to(folder.resolve())
-        return path if inside and path.is_dir() else None
-    except (OSError, RuntimeError, ValueError):
-        return None
 
 
 def _text(row: dict[str, Any], key: str) -> str:

@@ -166,6 +166,23 @@ class SweepFolder:
             shutil.rmtree(self.path / EPISODES / self.name(key), ignore_errors=True)
 
 
+def kept_folder(sweep: Path, named: object) -> Path | None:
+    """Return the folder of an episode that was kept; None of one that lies elsewhere or is gone.
+
+    Args:
+        sweep: the sweep's folder.
+        named: what a row says, which may be anything.
+    """
+    if not isinstance(named, str) or not named or "\x00" in named:
+        return None
+    try:
+        path = sweep / named
+        inside = path.resolve().is_relative_to(sweep.resolve())
+        return path if inside and path.is_dir() else None
+    except (OSError, RuntimeError, ValueError):
+        return None
+
+
 @contextmanager
 def _written(path: Path) -> Iterator[None]:
     """Tell what cannot be written as an error of the recording."""
