@@ -1,6 +1,7 @@
 """Comparisons: figures, pairs by scenario and seed, and differences that a test has to show."""
 
 import json
+import math
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -9,10 +10,11 @@ import pytest
 from sweep_builders import row
 
 from treadwell.cli.app import execute
-from treadwell.comparing.comparison import Candidate, compared, differences, figure
+from treadwell.comparing.comparison import MOST_EACH, Candidate, compared, differences, figure
 from treadwell.comparing.intervals import share_interval
 from treadwell.comparing.metrics import METRICS
 from treadwell.comparing.sides import candidates
+from treadwell.comparing.statistics import DRAWS, LEVEL, holm
 from treadwell.comparing.tables import comparison_tables
 from treadwell.errors import InputError
 from treadwell.sweeps.request import SCHEMA
@@ -114,6 +116,55 @@ def test_a_difference_has_its_interval_and_three_pairs_have_none() -> None:
     assert ("b", "time s", "+269.0", "-", "3") in [cells[:5] for cells in shown.rows]
 
 
+def test_each_is_held_against_each_and_all_are_corrected_together() -> None:
+    base = [row(i) for i in range(12)]
+    sides = [
+        side(name, *(replace(one, simulated_seconds=30.0 + one.seed + late) for one in base))
+        for name, late in (("a", 0.0), ("b", 0.0), ("c", 2.0), ("d", 9.0))
+    ]
+    found = [one for one in differences(sides) if one["metric"] == "time"]
+    assert [one["first"] + one["other"] for one in found] == ["ab", "ac", "ad", "bc", "bd", "cd"]
+    assert {one["p"] for one in found[1:]} == {2 / 2**12}
+    tested = [one for one in differences(sides) if one["p"] is not None]
+    together = holm([one["p"] for one in tested])
+    assert [one["p_corrected"] for one in tested] == together
+    matrix = comparison_tables(compared(sides))[-1]
+    assert matrix.title == "Each against each: time s"
+    assert matrix.rows == (
+        ("a", "-", "+0.0", "-2.0 better", "-9.0 better"),
+        ("b", "+0.0", "-", "-2.0 better", "-9.0 better"),
+        ("c", "+2.0 worse", "+2.0 worse", "-", "-7.0 better"),
+        ("d", "+9.0 worse", "+9.0 worse", "+7.0 worse", "-"),
+    )
+    assert matrix.markdown().count("worse than that") == 1
+    titles = [table.title for table in comparison_tables(compared(sides))]
+    assert titles == ["Comparison", "Against a", "Each against each: success", matrix.title]
+
+
+def test_the_order_of_the_sides_changes_no_p() -> None:
+    sides = [side(n, *(row(i, **(FAILED if i < k else {})) for i in range(9))) for n, k in
+             (("a", 0), ("b", 4), ("c", 9))]  # fmt: skip
+
+    def ps(order: list[Candidate]) -> dict[frozenset[str], float]:
+        found = [one for one in differences(order) if one["metric"] == "success"]
+        return {frozenset((one["first"], one["other"])): one["p_corrected"] for one in found}
+
+    assert ps(sides) == ps(sides[::-1])
+
+
+def test_too_many_for_each_against_each_are_held_against_the_first() -> None:
+    sides = [side(f"s{k}", row(0), row(1)) for k in range(MOST_EACH + 1)]
+    document = compared(sides)
+    assert document["against"] == "first"
+    assert {one["first"] for one in document["differences"]} == {"s0"}
+    assert not [t for t in comparison_tables(document) if t.title.startswith("Each")]
+    tests = math.comb(MOST_EACH, 2) * len(METRICS)
+    assert tests / (1 + DRAWS) < LEVEL
+    assert {one["first"] for one in differences(sides[:MOST_EACH])} == {
+        f"s{k}" for k in range(MOST_EACH - 1)
+    }
+
+
 def test_pairs_are_the_same_scenario_and_seed() -> None:
     first = side("a", *(row(i) for i in range(5)), row(7, scenario="doorway"))
     second = side("b", *(row(i) for i in range(3, 9)))
@@ -159,9 +210,17 @@ def test_the_command_shows_tables_json_and_markdown(
     assert execute(["compare", *names, "--json", "--out", str(out)]) == 0
     document = json.loads(capsys.readouterr().out)
     assert document["schema"] == "treadwell.comparison/1"
-    assert len(document["differences"]) == 2 * len(METRICS)
+    assert len(document["differences"]) == 3 * len(METRICS)
+    pairs = [("one", "two x=1"), ("one", "two x=2"), ("two x=1", "two x=2")]
+    assert list(dict.fromkeys((d["first"], d["other"]) for d in document["differences"])) == pairs
+    assert (document["against"], document["correction"], document["level"]) == (
+        "each",
+        "holm",
+        0.05,
+    )
     text = out.read_text()
     assert "| one | 20 | 100.0 % (83.9 to 100.0) |" in text
+    assert "| two x=1 | +0.0 | - | -5.0 better |" in text
     assert "| two x=2 | time s | +5.0 | +5.0 to +5.0 | 20 | " in text
     assert execute(["compare", *names]) == 0
     shown = capsys.readouterr()

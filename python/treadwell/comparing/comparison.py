@@ -1,8 +1,9 @@
-"""Candidates side by side: each one's figures, and where it differs from the first."""
+"""Candidates side by side: each one's figures, and where one differs from another."""
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 from statistics import fmean, median
 from typing import Any, Final
@@ -13,6 +14,11 @@ from treadwell.comparing.statistics import LEVEL, holm, mcnemar, permutation, wi
 from treadwell.sweeps.row import Row
 
 SCHEMA: Final = "treadwell.comparison/1"
+
+MOST_EACH: Final = 12
+"""Candidates up to which each is held against each: with 66 pairs and eleven figures there are 726
+tests, and a permutation test of 20,000 draws can still show a difference after the correction. More
+candidates are held against the first alone."""
 
 Pair = tuple[str, str, int]
 
@@ -36,7 +42,7 @@ def compared(candidates: Sequence[Candidate]) -> dict[str, Any]:
     """Return the comparison as plain data.
 
     Args:
-        candidates: the first is what the others are held against.
+        candidates: in the order of the tables.
     """
     scenarios = list(dict.fromkeys(row.scenario for one in candidates for row in one.rows))
     found = differences(candidates)
@@ -54,6 +60,9 @@ def compared(candidates: Sequence[Candidate]) -> dict[str, Any]:
             }
             for one in candidates
         ],
+        "against": "each" if len(candidates) <= MOST_EACH else "first",
+        "correction": "holm",
+        "level": LEVEL,
         "tests": sum(one["p"] is not None for one in found),
         "differences": found,
     }
@@ -72,19 +81,22 @@ def figure(metric: Metric, rows: Sequence[Row]) -> dict[str, Any]:
 
 
 def differences(candidates: Sequence[Candidate]) -> list[dict[str, Any]]:
-    """Return each metric of each candidate against the first, by the pairs that both have."""
-    if not candidates:
-        return []
+    """Return each figure of each pair of candidates, by the episodes that both have.
+
+    All are corrected together after Holm. Of more than `MOST_EACH` candidates only the pairs with
+    the first are there.
+    """
     # Where robots are compared with each other, the same seed on the same scenario is a pair.
     by_robot = any(
         len({(row.scenario, row.seed) for row in one.rows}) < len(one.rows) for one in candidates
     )
-    first = _by_pair(candidates[0], by_robot=by_robot)
+    rows = [_by_pair(one, by_robot=by_robot) for one in candidates]
     found: list[dict[str, Any]] = []
-    for other in candidates[1:]:
-        second = _by_pair(other, by_robot=by_robot)
-        pairs = [(first[key], second[key]) for key in sorted(first.keys() & second.keys())]
-        found += [_difference(metric, pairs, candidates[0], other) for metric in METRICS]
+    for a, b in combinations(range(len(candidates)), 2):
+        if a and len(candidates) > MOST_EACH:
+            break
+        pairs = [(rows[a][key], rows[b][key]) for key in sorted(rows[a].keys() & rows[b].keys())]
+        found += [_difference(metric, pairs, candidates[a], candidates[b]) for metric in METRICS]
     tested = [one for one in found if one["p"] is not None]
     for one, p in zip(tested, holm([one["p"] for one in tested]), strict=True):
         one["p_corrected"] = p

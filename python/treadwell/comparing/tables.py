@@ -1,6 +1,6 @@
 """A comparison as tables: for the terminal, Markdown and the page on a sweep."""
 
-from typing import Any
+from typing import Any, Final
 
 from treadwell.comparing.metrics import METRICS, Metric
 from treadwell.comparing.statistics import LEVEL
@@ -9,7 +9,12 @@ from treadwell.experiments.experiment import NOTHING, Table
 
 def comparison_tables(document: dict[str, Any]) -> list[Table]:
     """Return what `compared` found as tables, without those that would be empty."""
-    tables = (_figures(document), _scenarios(document), _differences(document))
+    tables = (
+        _figures(document),
+        _scenarios(document),
+        _differences(document),
+        *_each_against_each(document),
+    )
     return [table for table in tables if table.rows]
 
 
@@ -68,7 +73,7 @@ def _scenarios(document: dict[str, Any]) -> Table:
 def pairs_note(document: dict[str, Any]) -> str:
     """Say with which sides the first one has nothing in common; empty where with all it has."""
     pairs: dict[str, int] = {}
-    for one in document["differences"]:
+    for one in _with_first(document):
         pairs[one["other"]] = max(one["pairs"], pairs.get(one["other"], 0))
     alone = [name for name, count in pairs.items() if not count]
     return f"No scenario and seed in common with the first: {', '.join(alone)}." if alone else ""
@@ -78,7 +83,7 @@ def _differences(document: dict[str, Any]) -> Table:
     """What differs from the first candidate, and what does not."""
     titles = {metric.name: metric for metric in METRICS}
     rows = []
-    for one in document["differences"]:
+    for one in _with_first(document):
         metric = titles[one["metric"]]
         if one["p"] is None or (one["difference"] == 0 and one["p"] == 1.0):
             continue
@@ -100,11 +105,64 @@ def _differences(document: dict[str, Any]) -> Table:
         tuple(rows),
         (
             "Pairs: the same scenario and seed. McNemar's exact test of shares, a permutation test "
-            f"of the rest, all corrected after Holm; a difference is one below {LEVEL:g}. "
+            f"of the rest, {_correction(document)}; a difference is one below {LEVEL:g}. "
             "Intervals, of one difference each and not corrected: Newcombe's of shares, else what "
             "the permutation test would not contradict; fewer than six pairs have none.",
         ),
     )
+
+
+def _correction(document: dict[str, Any]) -> str:
+    tests, sides = document["tests"], len(document["candidates"])
+    if sides > 2 and document["against"] == "each":
+        return f"all {tests} of each against each corrected after Holm"
+    return f"all {tests} corrected after Holm"
+
+
+def _with_first(document: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the differences from the first side."""
+    if not document["candidates"]:
+        return []
+    first = document["candidates"][0]["name"]
+    return [one for one in document["differences"] if one["first"] == first]
+
+
+def _each_against_each(document: dict[str, Any]) -> list[Table]:
+    """Return a matrix of each figure in which some pair differs, and of success anyway."""
+    names = [side["name"] for side in document["candidates"]]
+    if len(names) <= 2 or document["against"] != "each":
+        return []
+    tables = []
+    for metric in METRICS:
+        found = {
+            (one["first"], one["other"]): one
+            for one in document["differences"]
+            if one["metric"] == metric.name and one["p"] is not None
+        }
+        shown = any(one["verdict"] in _TURNED for one in found.values())
+        if not found or not (shown or metric.name == "success"):
+            continue
+        rows = tuple((name, *(_cell(metric, found, name, to) for to in names)) for name in names)
+        note = "The row less the column; a word where it is shown to be better or worse than that."
+        tables.append(Table(f"Each against each: {metric.title}", ("", *names), rows, (note,)))
+    return tables
+
+
+_TURNED: Final = {"better": "worse", "worse": "better"}
+"""A verdict -> the same pair's, seen from the other side."""
+
+
+def _cell(metric: Metric, found: dict[tuple[str, str], dict[str, Any]], name: str, to: str) -> str:
+    """Return what stands in a row of the matrix below the name of a column."""
+    if (to, name) in found:
+        one = found[to, name]
+        step, verdict = one["difference"], one["verdict"]
+    elif (name, to) in found:
+        one = found[name, to]
+        step, verdict = 0.0 - one["difference"], _TURNED.get(one["verdict"], "")
+    else:
+        return NOTHING
+    return f"{_step(metric, step)} {verdict if verdict in _TURNED else ''}".rstrip()
 
 
 def _step(metric: Metric, difference: float) -> str:
