@@ -10,7 +10,14 @@ import pytest
 from sweep_builders import row
 
 from treadwell.cli.app import execute
-from treadwell.comparing.comparison import MOST_EACH, Candidate, compared, differences, figure
+from treadwell.comparing.comparison import (
+    MOST_EACH,
+    TOO_FEW,
+    Candidate,
+    compared,
+    differences,
+    figure,
+)
 from treadwell.comparing.intervals import share_interval
 from treadwell.comparing.metrics import METRICS
 from treadwell.comparing.sides import candidates
@@ -131,14 +138,45 @@ def test_each_is_held_against_each_and_all_are_corrected_together() -> None:
     matrix = comparison_tables(compared(sides))[-1]
     assert matrix.title == "Each against each: time s"
     assert matrix.rows == (
-        ("a", "-", "+0.0", "-2.0 better", "-9.0 better"),
-        ("b", "+0.0", "-", "-2.0 better", "-9.0 better"),
-        ("c", "+2.0 worse", "+2.0 worse", "-", "-7.0 better"),
-        ("d", "+9.0 worse", "+9.0 worse", "+7.0 worse", "-"),
+        ("A  a", "-", "+0.0", "-2.0 better", "-9.0 better"),
+        ("B  b", "+0.0", "-", "-2.0 better", "-9.0 better"),
+        ("C  c", "+2.0 worse", "+2.0 worse", "-", "-7.0 better"),
+        ("D  d", "+9.0 worse", "+9.0 worse", "+7.0 worse", "-"),
     )
     assert matrix.markdown().count("worse than that") == 1
     titles = [table.title for table in comparison_tables(compared(sides))]
     assert titles == ["Comparison", "Against a", "Each against each: success", matrix.title]
+
+
+def test_pairs_that_could_never_have_shown_a_difference_are_called_too_few() -> None:
+    """Three pairs and a difference of ninety times are no sign that there is none."""
+    first = side("a", *(row(i, simulated_seconds=1.0 + 0.1 * i) for i in range(3)))
+    slower = side("b", *(row(i, simulated_seconds=90.0 + i) for i in range(3)))
+    found = differences([first, slower])
+    time, tests = test_of(found, "time"), sum(one["p"] is not None for one in found)
+    assert time["p"] == 2 / 2**3
+    assert time["verdict"] == TOO_FEW
+    limit = LEVEL / tests
+    assert 2.0 ** (1 - time["pairs_least"]) < limit <= 2.0 ** (2 - time["pairs_least"])
+    assert time["pairs_for_power"] >= time["pairs_least"]
+    table = comparison_tables(compared([first, slower]))[-1]
+    needed = f"{time['pairs_least']} at least, about {time['pairs_for_power']}"
+    assert table.rows[0][-2:] == (TOO_FEW, needed)
+    told = " ".join(table.notes)
+    assert f"Too few pairs: 3 cannot show a difference beside {tests - 1} other tests" in told
+    assert "in 80 % of cases" in told
+
+
+def test_as_many_pairs_as_it_takes_show_it_and_one_less_never_does() -> None:
+    def time_of(count: int) -> dict[str, Any]:
+        first = side("a", *(row(i) for i in range(count)))
+        slower = side("b", *(row(i, simulated_seconds=90.0 + i) for i in range(count)))
+        return test_of(differences([first, slower]), "time")
+
+    least = time_of(3)["pairs_least"]
+    assert time_of(least - 1)["verdict"] == TOO_FEW
+    assert time_of(least)["verdict"] == "worse"
+    assert time_of(least)["pairs_for_power"] is None
 
 
 def test_the_order_of_the_sides_changes_no_p() -> None:
@@ -220,7 +258,7 @@ def test_the_command_shows_tables_json_and_markdown(
     )
     text = out.read_text()
     assert "| one | 20 | 100.0 % (83.9 to 100.0) |" in text
-    assert "| two x=1 | +0.0 | - | -5.0 better |" in text
+    assert "| B  two x=1 | +0.0 | - | -5.0 better |" in text
     assert "| two x=2 | time s | +5.0 | +5.0 to +5.0 | 20 | " in text
     assert execute(["compare", *names]) == 0
     shown = capsys.readouterr()

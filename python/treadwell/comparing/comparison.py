@@ -10,6 +10,7 @@ from typing import Any, Final
 
 from treadwell.comparing.intervals import mean_interval, share_interval
 from treadwell.comparing.metrics import METRICS, Metric
+from treadwell.comparing.power import fewest_pairs, pairs_for_power, threshold
 from treadwell.comparing.statistics import LEVEL, holm, mcnemar, permutation, wilson
 from treadwell.sweeps.row import Row
 
@@ -19,6 +20,10 @@ MOST_EACH: Final = 12
 """Candidates up to which each is held against each: with 66 pairs and eleven figures there are 726
 tests, and a permutation test of 20,000 draws can still show a difference after the correction. More
 candidates are held against the first alone."""
+
+NOT_SHOWN: Final = "no difference shown"
+TOO_FEW: Final = "too few pairs"
+"""What is said of a difference; else it is `better` or `worse`."""
 
 Pair = tuple[str, str, int]
 
@@ -97,14 +102,39 @@ def differences(candidates: Sequence[Candidate]) -> list[dict[str, Any]]:
             break
         pairs = [(rows[a][key], rows[b][key]) for key in sorted(rows[a].keys() & rows[b].keys())]
         found += [_difference(metric, pairs, candidates[a], candidates[b]) for metric in METRICS]
-    tested = [one for one in found if one["p"] is not None]
-    for one, p in zip(tested, holm([one["p"] for one in tested]), strict=True):
-        one["p_corrected"] = p
-        if p < LEVEL:
-            one["verdict"] = one.pop("tendency")
+    _judge([one for one in found if one["p"] is not None])
     for one in found:
-        one.pop("tendency", None)
+        one.pop("tendency")
+        one.pop("steps")
     return found
+
+
+def _judge(tested: Sequence[dict[str, Any]]) -> None:
+    """Note the corrected p of all tests, what each says, and how many pairs it would take."""
+    ps = [one["p"] for one in tested]
+    limits = _thresholds(ps)
+    for one, p, limit in zip(tested, holm(ps), limits, strict=True):
+        one["p_corrected"] = p
+        least = fewest_pairs(one["test"], limit)
+        one["pairs_least"] = least
+        if p < LEVEL:
+            one["verdict"] = one["tendency"]
+        elif least is not None and one["pairs"] < least:
+            one["verdict"] = TOO_FEW
+        if p >= LEVEL:
+            one["pairs_for_power"] = pairs_for_power(one["test"], one["steps"], limit)
+
+
+def _thresholds(ps: Sequence[float]) -> list[float]:
+    """Return of each test the p below which it is shown, the others being as they are."""
+    # Tests of the same p have the same others.
+    known = {p: threshold([*ps[: ps.index(p)], *ps[ps.index(p) + 1 :]]) for p in set(ps)}
+    return [known[p] for p in ps]
+
+
+def letter(number: int) -> str:
+    """Return what stands for a candidate where names have no room: A, B, ...; from the 27th 27."""
+    return chr(ord("A") + number) if number < 26 else str(number + 1)
 
 
 def _by_pair(candidate: Candidate, *, by_robot: bool) -> dict[Pair, Row]:
@@ -121,10 +151,10 @@ def _difference(
     if metric.kind == "share":
         lost, won = sum(step < 0 for step in steps), sum(step > 0 for step in steps)
         kept = sum(a > 0 for a, b in both) - lost
-        p = mcnemar(lost, won)
+        test, p = "mcnemar", mcnemar(lost, won)
         low, high = share_interval(kept, lost, won, len(both) - kept - lost - won)
     else:
-        p = permutation(steps)
+        test, p = "permutation", permutation(steps)
         low, high = mean_interval(steps)
     mean = fmean(steps) if steps else None
     rises = mean is not None and mean > 0
@@ -132,12 +162,16 @@ def _difference(
         "metric": metric.name,
         "first": first.name,
         "other": other.name,
+        "test": test,
         "pairs": len(both),
+        "pairs_least": None,
+        "pairs_for_power": None,
         "difference": mean,
         "low": low if both and math.isfinite(low) else None,
         "high": high if both and math.isfinite(high) else None,
         "p": p if both else None,
         "p_corrected": None,
-        "verdict": "no difference shown",
+        "verdict": NOT_SHOWN,
+        "steps": steps,
         "tendency": "better" if rises == (metric.better == "more") else "worse",
     }

@@ -7,6 +7,8 @@ from typing import Any, Final
 
 from matplotlib.lines import Line2D
 
+from treadwell.comparing.comparison import letter
+
 MOST_STYLES: Final = 8
 """Sides that markers and lines tell apart."""
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P", "X", "p")
@@ -29,7 +31,7 @@ class Style:
     """How a side is drawn.
 
     Attributes:
-        letter: that stands for it: A, B, ..., and from the 27th on a number.
+        letter: that stands for it.
         name: in the legend.
         marker: of its points, as Matplotlib has it.
         dashes: of its lines, as Matplotlib has it.
@@ -59,7 +61,7 @@ def styles(names: Sequence[str]) -> tuple[Style, ...]:
     """Return the style of each side, in the order of their names; from the ninth on they repeat."""
     return tuple(
         Style(
-            letter=chr(ord("A") + number) if number < 26 else str(number + 1),
+            letter=letter(number),
             name=name,
             marker=_MARKERS[number % MOST_STYLES],
             dashes=_DASHES[number % MOST_STYLES],

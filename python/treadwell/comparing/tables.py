@@ -1,8 +1,11 @@
 """A comparison as tables: for the terminal, Markdown and the page on a sweep."""
 
+from dataclasses import replace
 from typing import Any, Final
 
+from treadwell.comparing.comparison import TOO_FEW, letter
 from treadwell.comparing.metrics import METRICS, Metric
+from treadwell.comparing.power import POWER
 from treadwell.comparing.statistics import LEVEL
 from treadwell.experiments.experiment import NOTHING, Table
 
@@ -96,20 +99,53 @@ def _differences(document: dict[str, Any]) -> Table:
                 str(one["pairs"]),
                 f"{one['p_corrected']:.3g}",
                 one["verdict"],
+                _needed(one),
             )
         )
     first = document["candidates"][0]["name"] if document["candidates"] else ""
     return Table(
         f"Against {first}",
-        ("", "figure", "difference", "95 % interval", "pairs", "p", ""),
+        ("", "figure", "difference", "95 % interval", "pairs", "p", "", "pairs it takes"),
         tuple(rows),
         (
             "Pairs: the same scenario and seed. McNemar's exact test of shares, a permutation test "
             f"of the rest, {_correction(document)}; a difference is one below {LEVEL:g}. "
             "Intervals, of one difference each and not corrected: Newcombe's of shares, else what "
             "the permutation test would not contradict; fewer than six pairs have none.",
+            *_few_note(document),
         ),
     )
+
+
+def _needed(one: dict[str, Any]) -> str:
+    """Say how many pairs a difference takes that was not shown."""
+    if one["verdict"] in _TURNED:
+        return ""
+    least = f"{one['pairs_least']} at least" if one["verdict"] == TOO_FEW else ""
+    about = f"about {one['pairs_for_power']}" if one["pairs_for_power"] is not None else ""
+    return ", ".join(filter(None, (least, about))) or NOTHING
+
+
+def _few_note(document: dict[str, Any]) -> list[str]:
+    """Say what `too few pairs` and the last column mean, where they are there."""
+    found = _with_first(document)
+    notes = []
+    few = [one for one in found if one["verdict"] == TOO_FEW]
+    if few:
+        pairs = sorted({one["pairs"] for one in few})
+        least = max(one["pairs_least"] for one in few)
+        told = ", ".join(map(str, pairs))
+        notes.append(
+            f"Too few pairs: {told} cannot show a difference beside {document['tests'] - 1} other "
+            f"tests, however large it is: the least p of n pairs is 2 / 2^n. It takes {least} at "
+            "least, and those only where all differ in the same direction."
+        )
+    if any(one["pairs_for_power"] is not None for one in found):
+        notes.append(
+            f"About: so many pairs show a difference as large as the one seen in {100 * POWER:g} % "
+            "of cases; by few pairs it is known no better than the difference itself."
+        )
+    return notes
 
 
 def _correction(document: dict[str, Any]) -> str:
@@ -142,9 +178,15 @@ def _each_against_each(document: dict[str, Any]) -> list[Table]:
         shown = any(one["verdict"] in _TURNED for one in found.values())
         if not found or not (shown or metric.name == "success"):
             continue
-        rows = tuple((name, *(_cell(metric, found, name, to) for to in names)) for name in names)
+        rows = tuple(
+            (f"{letter(number)}  {name}", *(_cell(metric, found, name, to) for to in names))
+            for number, name in enumerate(names)
+        )
+        header = ("", *map(letter, range(len(names))))
+        tables.append(Table(f"Each against each: {metric.title}", header, rows))
+    if tables:
         note = "The row less the column; a word where it is shown to be better or worse than that."
-        tables.append(Table(f"Each against each: {metric.title}", ("", *names), rows, (note,)))
+        tables[-1] = replace(tables[-1], notes=(note,))
     return tables
 
 
