@@ -50,14 +50,17 @@ def test_a_planner_that_was_edited_is_another(
     package = tmp_path / "my_parts_of_a_sweep"
     package.mkdir()
     (package / "__init__.py").write_text("")
-    (package / "planner.py").write_text("class Mine: ...\n")
+    (package / "planner.py").write_text("from . import helper\nclass Mine: ...\n")
     (package / "helper.py").write_text("STEP = 1\n")
     setting = "navigation.planner=my_parts_of_a_sweep.planner:Mine"
     before = line(scenario, setting)
     assert before.parts
     (package / "helper.py").write_text("STEP = 2\n")
     after = line(scenario, setting)
-    assert after.hash != before.hash
+    assert after.classes != before.classes
+    assert after.hash == before.hash
+    (package / "helper.py").write_text("STEP = 2  # a number\n")
+    assert line(scenario, setting) == after
     assert line(scenario, "navigation.planner=there_is_no_such_module:Mine").parts
 
 

@@ -26,12 +26,14 @@ class Located:
         folders: in which its submodules lie; None: it is no package.
         file: its source; None: it has none that could be read.
         source: its content.
+        compiled: its file where that is no source.
     """
 
     name: str
     folders: tuple[str, ...] | None
     file: Path | None = None
     source: bytes | None = None
+    compiled: Path | None = None
 
 
 def locate(module: str) -> Located:
@@ -82,7 +84,7 @@ def _located(name: str, spec: ModuleSpec) -> Located:
     folders = None if places is None else tuple(places)
     origin = Path(spec.origin) if spec.has_location and spec.origin else None
     if origin is None or origin.suffix not in {".py", ".pyw"}:
-        return Located(name, folders)
+        return Located(name, folders, compiled=origin)
     if origin.exists():
         return Located(name, folders, origin, read_content(origin, LARGEST_SOURCE))
     get_source = getattr(spec.loader, "get_source", None)  # of an archive

@@ -126,7 +126,13 @@ def sweep(
         try:
             made = _engine(engine, workers)
             document = conduct(
-                request, folder, made, care=care, progress=progress, command=asked.command
+                request,
+                folder,
+                made,
+                care=care,
+                progress=progress,
+                command=asked.command,
+                told=write_message,
             )
         except KeyboardInterrupt:
             write_message(

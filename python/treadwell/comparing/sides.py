@@ -9,7 +9,8 @@ from treadwell.comparing.comparison import Candidate
 from treadwell.errors import InputError
 from treadwell.files import read_text
 from treadwell.sweeps import journal
-from treadwell.sweeps.folder import ASKED, LARGEST, RESULTS, read_asked
+from treadwell.sweeps.agreement import LARGEST, read_asked
+from treadwell.sweeps.folder import ASKED, RESULTS
 from treadwell.sweeps.request import SCHEMA
 from treadwell.sweeps.row import Row, row_of
 

@@ -8,7 +8,8 @@ from typing import Any
 from treadwell.careful_json import json_of
 from treadwell.errors import InputError
 from treadwell.files import read_text
-from treadwell.sweeps.folder import LARGEST, kept_folder
+from treadwell.sweeps.agreement import LARGEST
+from treadwell.sweeps.folder import kept_folder
 from treadwell.sweeps.journal import NAME as JOURNAL
 from treadwell.sweeps.journal import read_rows
 

@@ -58,6 +58,7 @@ def conduct(
     care: Care | None = None,
     progress: Progress | None = None,
     command: str = "",
+    told: Callable[[str], None] | None = None,
 ) -> dict[str, Any]:
     """Do what is left of a sweep, write its results, and return them.
 
@@ -68,6 +69,7 @@ def conduct(
         care: limits, and what is kept.
         progress: is told of each episode.
         command: what asks for the same again; stands in the results.
+        told: is given a sentence on each class in Python that was edited since the sweep began.
 
     Raises:
         InputError: the folder cannot be taken, or no episode of a line can be built.
@@ -75,6 +77,9 @@ def conduct(
         KeyboardInterrupt: interrupted; the same call goes on.
     """
     with SweepFolder(out, request) as folder:
+        for edited in folder.edited:
+            if told is not None:
+                told(edited.sentence)
         sweep = _Sweep(request, folder, care or Care(), progress)
         if sweep.todo:
             with engine() as made:
@@ -104,10 +109,11 @@ class _Sweep:
         Raises:
             InputError: of some line nothing can.
         """
-        waiting = {self._request.line_of(key): CHECKS for key in self.todo}
-        if self._folder.rows:
-            return  # it was found out when the sweep began
-        for number in waiting:
+        # Of a line that has a row it was found out when that was done.
+        known = {self._request.line_of(row.key) for row in self._folder.rows}
+        for number in dict.fromkeys(self._request.line_of(key) for key in self.todo):
+            if number in known:
+                continue
             self._submit(engine, self._checked(self._request.lines[number], 0))
         for job, answer in engine.answers():
             number = self._request.line_of(job.key)

@@ -4,14 +4,12 @@ import hashlib
 import json
 import os
 from collections.abc import Iterator, Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from treadwell.data import PACKAGE
 from treadwell.files import opened
 from treadwell.own_core import VARIABLE
-from treadwell.plugins import foreign_parts
 from treadwell.robot.load import Robot
 from treadwell.scenario.elements import named_file
 from treadwell.scenario.events import Add
@@ -28,6 +26,8 @@ def build_hash() -> str:
 def line_hash(file: Path, scenario: Scenario, robot: Robot, asked: Sequence[Any]) -> str:
     """Return a hash of the files of a sweep's line, and of what the scenario becomes.
 
+    Classes in Python are not in it: each has a hash of its own.
+
     Args:
         file: the scenario's.
         scenario: as it is run with the first seed.
@@ -35,8 +35,6 @@ def line_hash(file: Path, scenario: Scenario, robot: Robot, asked: Sequence[Any]
         asked: settings and the like, as plain data.
     """
     files = [file, *named_files(scenario), *_files_in(robot.folder, "*")]
-    for part in foreign_parts(scenario.navigation.slots()):
-        files += _sources(part.target)
     return _hash(files, json.dumps([scenario.configuration(), *asked]))
 
 
@@ -47,19 +45,6 @@ def named_files(scenario: Scenario) -> Iterator[Path]:
         file = named_file(element)
         if file is not None:
             yield scenario.folder / file
-
-
-def _sources(name: str) -> list[Path]:
-    """Return the module's file of `package.module:Class`, or all of the package that it is in."""
-    module = name.partition(":")[0]
-    try:
-        spec = find_spec(module.partition(".")[0])
-    except (ImportError, ValueError):
-        return []  # whoever makes the component tells that there is none
-    if spec is None or spec.origin is None or not Path(spec.origin).is_file():
-        return []
-    origin = Path(spec.origin)
-    return _files_in(origin.parent, "*.py") if origin.name == "__init__.py" else [origin]
 
 
 def _files_in(folder: Path, pattern: str) -> list[Path]:

@@ -9,19 +9,19 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final, Self
 
-from treadwell.careful_json import json_of
 from treadwell.errors import InputError, RecordingError
-from treadwell.files import read_text, write_text
+from treadwell.files import write_text
 from treadwell.sweeps import journal
-from treadwell.sweeps.request import SCHEMA, Key, Request
+from treadwell.sweeps.agreement import Edited, edited_classes, read_asked
+from treadwell.sweeps.request import Key, Request
 from treadwell.sweeps.row import Row, row_of
 
 ASKED: Final = "sweep.json"
 RESULTS: Final = "results.json"
 TABLE: Final = "episodes.parquet"
 EPISODES: Final = "episodes"
-LARGEST: Final = 500_000_000
-"""Bytes of `sweep.json` and of `results.json`."""
+REPLACED: Final = "replaced"
+"""Of a class that was edited: numbered folders of the rows and recordings that ran with it."""
 _LOCK: Final = ".lock"
 _DOING: Final = ".doing"
 
@@ -32,6 +32,7 @@ class SweepFolder:
     Attributes:
         path: of the folder.
         rows: of the episodes that are done, in the order in which they were.
+        edited: the classes in Python that were edited since; the rows that ran with them are gone.
     """
 
     def __init__(self, path: Path, request: Request) -> None:
@@ -44,10 +45,12 @@ class SweepFolder:
         self.path, self._request = path, request
         self._lock = self._take()
         try:
-            self._agree()
+            edited = self._agree()
             self._journal = journal.Journal(path / journal.NAME)
             self.rows = [self._row(row) for row in self._journal.rows]
             self._check_rows()
+            self.edited = self._set_aside(edited)
+            self._note_asked()
             self._tidy()
         except BaseException:
             os.close(self._lock)
@@ -134,16 +137,51 @@ class SweepFolder:
             raise InputError(f"--out: {path}: another process is working on this sweep") from None
         return handle
 
-    def _agree(self) -> None:
-        """Write what is asked for, or hold it against what was asked for before."""
-        asked = self._request.document()
+    def _agree(self) -> dict[int, tuple[str, ...]]:
+        """Hold what is asked for against what was before: line -> classes that were edited."""
         file = self.path / ASKED
-        try:
-            if os.path.lexists(file):
-                _check_same(file, read_asked(file), asked)
-            write_text(file, json.dumps(asked, indent=2) + "\n")
-        except OSError as error:
-            raise RecordingError(f"{file}: cannot be written: {error}") from error
+        if not os.path.lexists(file):
+            return {}
+        return edited_classes(file, read_asked(file), self._request.document())
+
+    def _note_asked(self) -> None:
+        """Write what is asked for; last, so that a kill before it leaves the sweep as it was."""
+        file = self.path / ASKED
+        with _written(file):
+            write_text(file, json.dumps(self._request.document(), indent=2) + "\n")
+
+    def _set_aside(self, edited: dict[int, tuple[str, ...]]) -> tuple[Edited, ...]:
+        """Put rows and recordings of classes that were edited where they are not in the way."""
+        lines = [self._request.line_of(row.key) for row in self.rows]
+        if edited.keys().isdisjoint(lines):
+            return ()
+        number, place = 1, self.path / REPLACED / "1"
+        while place.exists():
+            number += 1
+            place = self.path / REPLACED / str(number)
+        by_line = list(zip(self.rows, lines, strict=True))
+        stale = [row for row, line in by_line if line in edited]
+        left = [row for row, line in by_line if line not in edited]
+        with _written(place):
+            (place / EPISODES).mkdir(parents=True)
+            text = "".join(json.dumps(row.document(), allow_nan=False) + "\n" for row in stale)
+            write_text(place / journal.NAME, text)
+            self._journal.replace([row.document() for row in left])
+            for row in stale:
+                kept = self.path / EPISODES / self.name(row.key)
+                if kept.is_dir():
+                    kept.rename(place / EPISODES / kept.name)
+        self.rows = left
+        names = dict.fromkeys(name for line in edited for name in edited[line])
+        return tuple(
+            Edited(
+                name,
+                sum(name in edited.get(line, ()) for line in lines),
+                len(self.rows),
+                place,
+            )
+            for name in names
+        )
 
     def _row(self, document: dict[str, Any]) -> Row:
         try:
@@ -190,51 +228,6 @@ def _written(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise RecordingError(f"{path}: cannot be written: {error}") from error
-
-
-def read_asked(file: Path) -> dict[str, Any]:
-    """Return what a `sweep.json` holds.
-
-    Raises:
-        InputError: it is no such file.
-    """
-    document = json_of(read_text(file, LARGEST), str(file))
-    if not isinstance(document, dict) or document.get("schema") != SCHEMA:
-        raise InputError(f"{file}: not a sweep of schema {SCHEMA}")
-    lines = document.get("lines")
-    if not isinstance(lines, list) or not all(isinstance(line, dict) for line in lines):
-        raise InputError(f"{file}: lines: must be a list of tables")
-    return document
-
-
-def _check_same(file: Path, before: dict[str, Any], now: dict[str, Any]) -> None:
-    """Refuse to go on with another sweep; more seeds are the same sweep.
-
-    Raises:
-        InputError: something differs; the message says what.
-    """
-
-    def refuse(what: str, old: object, new: object) -> None:
-        raise InputError(
-            f"{file}: the sweep here is another: {what} was {old}, now {new}; give another --out"
-        )
-
-    for key in ("version", "build"):
-        if before.get(key) != now[key]:
-            refuse(f"treadwell's {key}", before.get(key), now[key])
-    old, new = before.get("lines", []), now["lines"]
-    if len(old) != len(new):
-        refuse("the number of scenarios and variants", len(old), len(new))
-    for a, b in zip(old, new, strict=True):
-        for key in ("scenario", "robot", "variant", "settings", "hash"):
-            if a.get(key) != b[key]:
-                refuse(f"{key} of {b['scenario']}", a.get(key), b[key])
-        if not set(a.get("seeds", [])) <= set(b["seeds"]):
-            refuse("episodes", _extent(a["seeds"]), _extent(b["seeds"]))
-
-
-def _extent(seeds: list[int]) -> str:
-    return f"{len(seeds)} from seed {seeds[0]} on" if seeds else "none"
 
 
 def write_table(file: Path, rows: list[Row]) -> None:

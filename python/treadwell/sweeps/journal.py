@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from treadwell.careful_json import json_of
 from treadwell.errors import InputError, RecordingError
-from treadwell.files import read_content
+from treadwell.files import read_content, write_bytes
 
 NAME: Final = "journal.jsonl"
 LARGEST: Final = 500_000_000
@@ -57,7 +57,7 @@ class Journal:
             RecordingError: it could not be written; the file is as it was before.
         """
         self._check_place()
-        line = json.dumps(row, allow_nan=False, separators=(",", ":")).encode() + b"\n"
+        line = _line(row)
         try:
             _write(self._file, line)
         except OSError as error:
@@ -67,6 +67,19 @@ class Journal:
             ) from error
         self._size += len(line)
         self.rows.append(row)
+
+    def replace(self, rows: list[dict[str, Any]]) -> None:
+        """Hold these rows from now on and no others, whole or not at all.
+
+        Raises:
+            OSError: they could not be written; the file is as it was before.
+        """
+        lines = [_line(row) for row in rows]
+        write_bytes(self._path, b"".join(lines))
+        os.close(self._file)
+        self._file = os.open(self._path, os.O_WRONLY | os.O_APPEND)
+        _sync_folder(self._path.parent)
+        self._size, self.rows = sum(map(len, lines)), list(rows)
 
     def _check_place(self) -> None:
         """Find out whether the file is still where it was.
@@ -116,6 +129,10 @@ def read_rows(path: Path) -> list[dict[str, Any]]:
         if isinstance(row, dict):
             rows.append(row)
     return rows
+
+
+def _line(row: dict[str, Any]) -> bytes:
+    return json.dumps(row, allow_nan=False, separators=(",", ":")).encode() + b"\n"
 
 
 def _write(file: int, line: bytes) -> None:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+from treadwell.class_hash import class_hash
 from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.plugins import ForeignPart, examined, foreign_parts, refuse_user_code
@@ -49,6 +50,7 @@ class Line:
         parts: the components that are Python of the user's or of installed packages, in any of
             its episodes.
         hash: of the files that it depends on, and of what the scenario becomes.
+        classes: (`package.module:Class`, hash of what it does) of each of the parts.
     """
 
     file: Path
@@ -60,6 +62,7 @@ class Line:
     seeds: tuple[int, ...]
     parts: tuple[ForeignPart, ...]
     hash: str
+    classes: tuple[tuple[str, str], ...] = ()
 
     def keys(self) -> list[Key]:
         """Return its episodes."""
@@ -73,6 +76,7 @@ class Line:
             "variant": self.variant,
             "settings": list(self.settings),
             "hash": self.hash,
+            "classes": dict(self.classes),
         }
 
     def document(self) -> dict[str, Any]:
@@ -189,6 +193,7 @@ def make_line(
     both = (*settings, *variant)
     made = load_scenario(file, robot=robot, seed=seeds[0], overrides=both)
     loaded = load_robot(made.robot)
+    parts = _parts(file, made, seeds, robot, both)
     return Line(
         file=file,
         scenario=made.name,
@@ -197,8 +202,9 @@ def make_line(
         variant=", ".join(variant),
         settings=both,
         seeds=tuple(seeds),
-        parts=_parts(file, made, seeds, robot, both),
+        parts=parts,
         hash=line_hash(file, made, loaded, [both, robot]),
+        classes=tuple((name, class_hash(name)) for name in dict.fromkeys(p.target for p in parts)),
     )
 
 
