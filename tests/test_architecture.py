@@ -93,6 +93,8 @@ TESTED_BY = {
     "sources.ply": "test_sources_clouds.py",
     "sources.pose_file": "test_sources_depth.py",
     "sources.run": "test_sources.py",
+    "sweeps.asked": "test_sweeps.py",
+    "sweeps.table": "test_sweeps.py",
     "sweeps.agreement": "test_sweep_folder.py",
     "sweeps.folder": "test_sweeps.py",
     "sweeps.job": "test_sweeps.py",

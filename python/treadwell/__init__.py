@@ -4,6 +4,9 @@
 >>> result = treadwell.run("slalom", seed=3)           # the same as `treadwell run slalom --seed 3`
 >>> for step in treadwell.Episode("slalom"):           # or frame by frame
 ...     step.observation.depth, step.estimate.pose, step.command
+>>> planners = {"navigation.planner": ["a_star", "voronoi"]}
+>>> sweep = treadwell.sweep("slalom", episodes=20, vary=planners)
+>>> treadwell.compare(sweep, figure="planners.pdf")    # each against each, by paired tests
 """
 
 import os
@@ -13,11 +16,13 @@ from treadwell.gymnasium_hook import register_with_gymnasium
 from treadwell.version import __version__
 
 if TYPE_CHECKING:
+    from treadwell.comparing.compare import compare
     from treadwell.episode import Episode
     from treadwell.replaying.replay import replay
     from treadwell.runner import run
+    from treadwell.sweeps.sweep import sweep
 
-__all__ = ["Episode", "__version__", "replay", "run"]
+__all__ = ["Episode", "__version__", "compare", "replay", "run", "sweep"]
 
 if os.environ.get("TREADWELL_CORE"):
     from treadwell.own_core import use
@@ -29,7 +34,9 @@ register_with_gymnasium()
 _HOMES = {
     "Episode": "treadwell.episode",
     "replay": "treadwell.replaying.replay",
+    "compare": "treadwell.comparing.compare",
     "run": "treadwell.runner",
+    "sweep": "treadwell.sweeps.sweep",
 }
 
 

@@ -2,15 +2,11 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from treadwell.cli.output import PASSED, write_json, write_message, write_table
-from treadwell.comparing.comparison import Candidate, compared
+from treadwell.comparing.compare import compare as comparison
 from treadwell.comparing.figure_file import check_figure
-from treadwell.comparing.sides import candidates
-from treadwell.comparing.tables import comparison_tables
-from treadwell.errors import InputError, RecordingError
-from treadwell.files import write_text
+from treadwell.comparing.tables import comparison_tables, write_tables
 
 
 def compare(
@@ -30,32 +26,19 @@ def compare(
     """
     if figure is not None:
         check_figure(figure)
-    sides = candidates(folders)
-    document = compared(sides)
-    tables = comparison_tables(document)
+    found = comparison(*folders)
+    tables = comparison_tables(found.document)
     if as_json:
-        write_json(document)
+        write_json(found.document)
     else:
         for table in tables:
             write_table(table.title, table.header, table.rows)
             for note in table.notes:
                 write_message(note)
     if out is not None:
-        if not out.parent.is_dir():
-            raise InputError(f"--out: {out}: there is no folder {out.parent}")
-        try:
-            write_text(out, "\n".join(table.markdown() for table in tables))
-        except OSError as error:
-            raise RecordingError(f"--out: {out}: {error.strerror}") from None
+        write_tables(out, tables)
     if figure is not None:
-        _draw(figure, sides, document)
+        drawn = found.draw(figure)
+        write_message(f"figure: {figure}" + (f" ({drawn.note})" if drawn.note else ""))
+        write_message(f"caption: {drawn.caption}")
     return PASSED
-
-
-def _draw(path: Path, sides: Sequence[Candidate], document: dict[str, Any]) -> None:
-    # Late, because matplotlib takes half a second to import.
-    from treadwell.comparing.figure import draw_figure
-
-    drawn = draw_figure(path, sides, document)
-    write_message(f"figure: {path}" + (f" ({drawn.note})" if drawn.note else ""))
-    write_message(f"caption: {drawn.caption}")

@@ -1,10 +1,5 @@
 """The verb `sweep`: many episodes with a bar of successes so far, and the counts as a table."""
 
-import math
-import os
-import shlex
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,79 +12,11 @@ from treadwell.cli.output import (
     write_table,
 )
 from treadwell.cli.sweep_progress import SweepProgress
-from treadwell.errors import InputError
 from treadwell.recording.run_folder import sweep_folder
-from treadwell.sweeps.conduct import GIGABYTE, Care, conduct
-from treadwell.sweeps.engine import Engine, local_engine
-from treadwell.sweeps.request import Request, crossed
-from treadwell.sweeps.suite import find_suite
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """Which episodes the command line asks for."""
-
-    scenarios: tuple[str, ...]
-    suite: str | None
-    episodes: int | None
-    first_seed: int
-    robot: str | None
-    settings: tuple[str, ...]
-    vary: tuple[str, ...]
-
-    @property
-    def name(self) -> str:
-        """What a folder is called after."""
-        return self.suite or Path(self.scenarios[0]).stem
-
-    @property
-    def command(self) -> str:
-        """What asks for the same again, but for the folder."""
-        words = ["treadwell", "sweep", *self.scenarios]
-        words += ["--suite", self.suite] if self.suite else []
-        words += ["--episodes", str(self.episodes)] if self.episodes is not None else []
-        words += ["--first-seed", str(self.first_seed)] if self.first_seed else []
-        words += ["--robot", self.robot] if self.robot else []
-        words += [word for setting in self.settings for word in ("--set", setting)]
-        words += [word for one in self.vary for word in ("--vary", one)]
-        return shlex.join(words)
-
-    def request(self) -> Request:
-        """Return the sweep.
-
-        Raises:
-            InputError: what was given is bad, or does not go together.
-        """
-        if self.suite is not None:
-            if self.scenarios or self.episodes is not None or self.first_seed or self.robot:
-                raise InputError(
-                    "--suite: a suite has its scenarios, seeds and robots; only --set and --vary "
-                    "go with it"
-                )
-            return find_suite(self.suite).request(self.settings, self.vary)
-        if not self.scenarios:
-            raise InputError("sweep: there is no scenario; name one or more, or --suite NAME")
-        if self.episodes is None:
-            raise InputError("sweep: --episodes N is missing")
-        seeds = range(self.first_seed, self.first_seed + self.episodes)
-        return crossed(
-            self.scenarios,
-            seeds=seeds,
-            robot=self.robot,
-            settings=self.settings,
-            vary=self.vary,
-        )
-
-
-def care(timeout_s: float, memory_gb: float, keep: int) -> Care:
-    """Return how episodes are treated, by what the command line says.
-
-    Raises:
-        InputError: a limit is no number.
-    """
-    if math.isnan(timeout_s) or math.isnan(memory_gb):
-        raise InputError("--timeout, --memory: found nan; must be a number")
-    return Care(timeout_s, int(memory_gb * GIGABYTE), keep)
+from treadwell.sweeps.asked import Asked
+from treadwell.sweeps.conduct import Care, conduct
+from treadwell.sweeps.summary import summary_table
+from treadwell.sweeps.sweep import chosen_engine
 
 
 def sweep(
@@ -124,7 +51,7 @@ def sweep(
     folder = sweep_folder(out, asked.name)
     with SweepProgress(len(request.keys())) as progress:
         try:
-            made = _engine(engine, workers)
+            made = chosen_engine(engine, workers)
             document = conduct(
                 request,
                 folder,
@@ -149,34 +76,9 @@ def sweep(
     return PASSED if document["passed"] else FAILED
 
 
-def _engine(name: str, workers: int | None) -> Callable[[], Engine]:
-    if name == "ray":
-        from treadwell.sweeps.ray_engine import ray_engine
-
-        return lambda: ray_engine(workers)
-    return lambda: local_engine(workers or os.cpu_count() or 1)
-
-
 def show(document: dict[str, Any]) -> None:
     """Write the counts as a table."""
-    rows = []
-    for line in document["summary"]:
-        name = " ".join(filter(None, (line["scenario"], line["robot"], line["variant"])))
-        outcomes = ", ".join(f"{count} {outcome}" for outcome, count in line["outcomes"].items())
-        rows.append(
-            (
-                name,
-                f"{line['successes']} of {line['episodes']}",
-                outcomes,
-                line["justified"],
-                f"{line['solvable']} of {line['solvable_known']}",
-                line["falls"],
-                line["collisions"],
-            )
-        )
-        if line["not_reproduced"]:
-            write_message(f"not the same again: {', '.join(line['not_reproduced'])}")
-    header = (
-        "", "successes", "outcomes", "refused rightly", "solvable", "falls", "collisions",
-    )  # fmt: skip
-    write_table("Sweep", header, rows)
+    table = summary_table(document)
+    for note in table.notes:
+        write_message(note)
+    write_table(table.title, table.header, table.rows)

@@ -94,8 +94,9 @@ def sweep(  # noqa: PLR0913 - one an option
 ) -> int:
     """Run many episodes, side by side; the same command goes on where it was stopped."""
     from treadwell.cli import sweep as cli_sweep
+    from treadwell.sweeps.asked import Asked, care
 
-    asked = cli_sweep.Asked(
+    asked = Asked(
         scenarios=tuple(scenarios or ()),
         suite=suite,
         episodes=episodes,
@@ -108,7 +109,7 @@ def sweep(  # noqa: PLR0913 - one an option
         asked,
         engine=engine.value,
         workers=workers,
-        care=cli_sweep.care(timeout, memory, keep),
+        care=care(timeout, memory, keep),
         out=out,
         user_code=not no_user_code,
         as_json=as_json,

@@ -1,13 +1,17 @@
 """A comparison as tables: for the terminal, Markdown and the page on a sweep."""
 
+from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, Final
 
 from treadwell.comparing.comparison import TOO_FEW, letter
 from treadwell.comparing.metrics import METRICS, Metric
 from treadwell.comparing.power import POWER
 from treadwell.comparing.statistics import LEVEL
+from treadwell.errors import InputError, RecordingError
 from treadwell.experiments.experiment import NOTHING, Table
+from treadwell.files import write_text
 
 
 def comparison_tables(document: dict[str, Any]) -> list[Table]:
@@ -19,6 +23,21 @@ def comparison_tables(document: dict[str, Any]) -> list[Table]:
         *_each_against_each(document),
     )
     return [table for table in tables if table.rows]
+
+
+def write_tables(path: Path, tables: Sequence[Table]) -> None:
+    """Write tables as Markdown; a file that is there is replaced, whole or not at all.
+
+    Raises:
+        InputError: there is no such folder.
+        RecordingError: the file cannot be written.
+    """
+    if not path.parent.is_dir():
+        raise InputError(f"--out: {path}: there is no folder {path.parent}")
+    try:
+        write_text(path, "\n".join(table.markdown() for table in tables))
+    except OSError as error:
+        raise RecordingError(f"--out: {path}: {error.strerror}") from None
 
 
 def _figures(document: dict[str, Any]) -> Table:

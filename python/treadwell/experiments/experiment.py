@@ -73,6 +73,19 @@ class Table:
         lines += ["", *self.notes] if self.notes else []
         return "\n".join(lines) + "\n"
 
+    def html(self) -> str:
+        """Return it as HTML for a notebook, everything in it escaped."""
+        from markupsafe import Markup
+
+        def cells(kind: str, words: Sequence[str]) -> Markup:
+            made = Markup("").join(Markup(f"<{kind}>{{}}</{kind}>").format(word) for word in words)
+            return Markup("<tr>{}</tr>").format(made)
+
+        rows = Markup("").join(cells("td", row) for row in self.rows)
+        notes = Markup("").join(Markup("<p>{}</p>").format(note) for note in self.notes)
+        page = Markup("<table><caption>{}</caption><thead>{}</thead><tbody>{}</tbody></table>{}")
+        return str(page.format(self.title, cells("th", self.header), rows, notes))
+
 
 @dataclass(frozen=True, slots=True)
 class Picture:

@@ -37,4 +37,4 @@ class Engine(Protocol):
 
 def local_engine(workers: int) -> Engine:
     """Return the engine that does the jobs in processes of this machine."""
-    return Pool(do, workers)
+    return Pool(do, workers, program=False)

@@ -15,6 +15,7 @@ from treadwell.sweeps import journal
 from treadwell.sweeps.agreement import Edited, edited_classes, read_asked
 from treadwell.sweeps.request import Key, Request
 from treadwell.sweeps.row import Row, row_of
+from treadwell.sweeps.table import write_table
 
 ASKED: Final = "sweep.json"
 RESULTS: Final = "results.json"
@@ -228,35 +229,3 @@ def _written(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise RecordingError(f"{path}: cannot be written: {error}") from error
-
-
-def write_table(file: Path, rows: list[Row]) -> None:
-    """Write rows as Parquet, whole or not at all.
-
-    Raises:
-        OSError: the file cannot be written.
-    """
-    # Late, because pyarrow takes a while to import.
-    import pyarrow as pa
-    import pyarrow.parquet as pq
-
-    kinds = {"str": pa.string(), "int": pa.int64(), "float": pa.float64(), "bool": pa.bool_()}
-    names = {name: str(kind) for name, kind in Row.__annotations__.items()}
-    schema = pa.schema([(name, kinds[_plain(kind)]) for name, kind in names.items()])
-    table = pa.Table.from_pylist([row.document() for row in rows], schema=schema)
-    temporary = file.with_name(f".{file.name}")
-    try:
-        pq.write_table(table, temporary)
-        with temporary.open("rb") as opened:
-            os.fsync(opened.fileno())
-        temporary.replace(file)
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
-def _plain(kind: str) -> str:
-    """Return `float` of `float | None` and of `<class 'float'>`."""
-    for name in ("bool", "float", "int", "str"):
-        if name in kind:
-            return name
-    raise TypeError(kind)

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from statistics import median
 from typing import Any
 
+from treadwell.experiments.experiment import Table
 from treadwell.sweeps.request import Request
 from treadwell.sweeps.row import Row
 
@@ -48,3 +49,34 @@ def summary(rows: Sequence[Row]) -> dict[str, Any]:
         "not_reproduced": [row.key.text for row in rows if row.reproduced is False],
         "simulated_seconds_median": median(times) if times else None,
     }
+
+
+def summary_table(
+    document: dict[str, Any], title: str = "Sweep", notes: Sequence[str] = ()
+) -> Table:
+    """Return the counts of a document as a table, a line of the sweep each.
+
+    Args:
+        document: as `results_document` made it.
+        title: of the table.
+        notes: what else there is to say, a sentence each.
+    """
+    rows, again = [], []
+    for line in document["summary"]:
+        rows.append(
+            (
+                " ".join(filter(None, (line["scenario"], line["robot"], line["variant"]))),
+                f"{line['successes']} of {line['episodes']}",
+                ", ".join(f"{count} {outcome}" for outcome, count in line["outcomes"].items()),
+                str(line["justified"]),
+                f"{line['solvable']} of {line['solvable_known']}",
+                str(line["falls"]),
+                str(line["collisions"]),
+            )
+        )
+        if line["not_reproduced"]:
+            again.append(f"not the same again: {', '.join(line['not_reproduced'])}")
+    header = (
+        "", "successes", "outcomes", "refused rightly", "solvable", "falls", "collisions",
+    )  # fmt: skip
+    return Table(title, header, tuple(rows), (*notes, *again))

@@ -2,10 +2,11 @@
 
 import os
 import signal
+import sys
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
-from contextlib import suppress
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
@@ -106,14 +107,16 @@ class Pool:
     or the others. To be made in the main thread: the processes end with the thread that made them.
     """
 
-    def __init__(self, work: Callable[[Any], Any], count: int) -> None:
+    def __init__(self, work: Callable[[Any], Any], count: int, *, program: bool = True) -> None:
         """Start nothing yet.
 
         Args:
             work: a function of a module, called with each item in another process.
             count: processes at a time.
+            program: whether each process imports the program that runs, which has to be where work
+                or items are of its; a script would then need `if __name__ == "__main__":`.
         """
-        self._work, self._count = work, count
+        self._work, self._count, self._program = work, count, program
         # A fresh interpreter each: a fork would copy the threads of the simulator's libraries half.
         self._context = get_context("spawn")
         self._waiting: deque[_Task] = deque()
@@ -219,7 +222,8 @@ class Pool:
         process = self._context.Process(
             target=serve, args=(theirs, self._work, log, os.getpid()), daemon=False
         )
-        process.start()
+        with nullcontext() if self._program else _without_program():
+            process.start()
         theirs.close()
         worker = _Worker(process, ours, log)
         self._workers.append(worker)
@@ -229,6 +233,20 @@ class Pool:
         if worker in self._workers:
             self._workers.remove(worker)
         worker.end()
+
+
+@contextmanager
+def _without_program() -> Iterator[None]:
+    """Let a process that is started meanwhile not import the program that runs."""
+    main = sys.modules["__main__"]
+    names = vars(main)
+    kept: dict[str, Any] = {one: names[one] for one in ("__spec__", "__file__") if one in names}
+    try:
+        names.pop("__file__", None)
+        names["__spec__"] = None
+        yield
+    finally:
+        names.update(kept)
 
 
 def _how(status: int | None) -> str:
