@@ -15,7 +15,7 @@ def compare(
     """Compare sweeps, show the tables, and return the exit status.
 
     Args:
-        folders: of finished sweeps; the first one's first variant is what others are held against.
+        folders: of finished sweeps; the first one's first variant stands first in the tables.
         out: a Markdown file to write the tables to.
         figure: a PDF, SVG or PNG file to draw the comparison to.
         as_json: write the comparison to standard output as JSON instead of tables.

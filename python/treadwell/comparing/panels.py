@@ -184,8 +184,8 @@ def _draw_sketch(axes: Axes, sketch: Sketch) -> None:
     )
     for text, place, lift in (("start", sketch.start, 5), ("goal", (x, y + radius), 3)):
         axes.annotate(
-            text, place, (0, lift), textcoords="offset points", ha="center", zorder=4,
-            bbox={"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.4},
+            text, place, (0, lift), textcoords="offset points", ha="center", zorder=8,
+            bbox={"facecolor": "#ffffffbb", "edgecolor": "none", "pad": 0.4},
         )  # fmt: skip
 
 
