@@ -123,6 +123,19 @@ def test_only_what_differs_is_drawn_of_differences_and_success() -> None:
     assert [metric.name for metric in shown] == ["success", "time"]
 
 
+def test_little_is_shown_in_thousandths(tmp_path: Path) -> None:
+    errors = [0.001 * i for i in range(8)]
+    near = [
+        row(i, translation_error_mean=e, heading_error_mean=9 * e) for i, e in enumerate(errors)
+    ]
+    far = [replace(one, translation_error_mean=0.5, heading_error_mean=0.5) for one in near]
+    drawn([Candidate("a", tuple(row(i, translation_error_mean=0.0) for i in range(8))),
+           Candidate("b", tuple(near))], tmp_path / "near.svg")  # fmt: skip
+    drawn([Candidate("a", tuple(near)), Candidate("b", tuple(far))], tmp_path / "far.svg")
+    assert "place off (mm)" in texts(tmp_path / "near.svg")
+    assert {"place off (m)", "heading off (rad)"} <= texts(tmp_path / "far.svg")
+
+
 def test_eight_sides_differ_in_marker_and_in_line() -> None:
     chosen = styles([f"s{k}" for k in range(MOST_STYLES)])
     for looks in (

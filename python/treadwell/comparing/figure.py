@@ -210,7 +210,8 @@ def _caption(document: dict[str, Any], ways: Ways | None) -> str:
     """Return what a paper would say below the figure."""
     episodes = sorted({side["episodes"] for side in document["candidates"]})
     count = str(episodes[0]) if len(episodes) == 1 else f"{episodes[0]} to {episodes[-1]}"
-    told = [f"Share of successes of {count} episodes, with Wilson's 95 % interval."]
+    count += " episode" if episodes == [1] else " episodes"
+    told = [f"Share of successes of {count}, with Wilson's 95 % interval."]
     if shown_differences(document):
         told.append(
             "Mean differences of pairs of the same scenario and seed, with 95 % intervals "

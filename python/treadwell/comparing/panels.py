@@ -17,8 +17,8 @@ ALL: Final = "all"
 _GRID: Final[dict[str, Any]] = {"color": "#dddddd", "linewidth": 0.5, "zorder": 0}
 _COURSE: Final = "#666666"
 _MARGIN_M: Final = 0.15
-_LITTLE_M: Final = 0.1
-"""Metres below which differences are shown in millimetres."""
+_LITTLE: Final = 0.1
+"""Metres or radians below which differences are shown in thousandths."""
 _SPREAD: Final = 0.62
 """Share of a scenario's row over which its sides are spread."""
 
@@ -123,15 +123,15 @@ def draw_differences(
 
 
 def _scale(metric: Metric, found: Sequence[dict[str, Any]]) -> tuple[float, str]:
-    """Return a factor and the name of an axis with its unit: percent, and millimetres of little."""
+    """Return a factor and the name of an axis with its unit: percent, thousandths of little."""
     if metric.kind == "share":
         return 100.0, f"{metric.title} (%)"
     words, _, unit = metric.title.rpartition(" ")
     if not words or unit not in ("s", "m", "ms", "rad"):
         return 1.0, metric.title
     reached = [abs(one[key]) for one in found for key in ("difference", "low", "high") if one[key]]
-    if unit == "m" and max(reached, default=0.0) < _LITTLE_M:
-        return 1000.0, f"{words} (mm)"
+    if unit in ("m", "rad") and max(reached, default=0.0) < _LITTLE:
+        return 1000.0, f"{words} (m{unit})"
     return 1.0, f"{words} ({unit})"
 
 
