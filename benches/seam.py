@@ -16,7 +16,7 @@ from into_results import add_options, write
 
 import treadwell
 from treadwell._core import Pilot
-from treadwell.protocols import Decision, Plan, Segmentation
+from treadwell.protocols import Decision, JointTargets, Plan, Segmentation
 
 STAGE = {
     "planner": "plan",
@@ -24,6 +24,7 @@ STAGE = {
     "localizer": "localize",
     "segmenter": "segment",
     "world_model": "map",
+    "walker": "walk",
 }
 
 
@@ -78,12 +79,19 @@ class Meadow(Timed):
         return self
 
 
+class Statue(Timed):
+    def step(self, _command: object, felt: Any) -> JointTargets:  # noqa: ANN401
+        begin = perf_counter()
+        return self.time(begin, JointTargets.at(felt.stand))
+
+
 PARTS: dict[str, Callable[[], Timed]] = {
     "planner": Ready,
     "behaviour": Idle,
     "localizer": Still,
     "segmenter": Ground,
     "world_model": Meadow,
+    "walker": Statue,
 }
 
 

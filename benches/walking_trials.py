@@ -31,8 +31,8 @@ from walking_tasks import COURSES, EDGES, TASKS, Job, Motion, climb, told
 from treadwell._core import Walker
 from treadwell.course.build import build_course
 from treadwell.observation import Observation
-from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
+from treadwell.protocols import JointTargets
 from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import load_robot
 from treadwell.scenario.model import Scenario

@@ -14,9 +14,9 @@ from treadwell.course.build import build_course
 from treadwell.course.course import Course
 from treadwell.judging.result import Result
 from treadwell.map_memory import RememberedMap
-from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
 from treadwell.poses import pose_matrix
+from treadwell.protocols import JointTargets
 from treadwell.robot.load import Robot, load_robot
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario

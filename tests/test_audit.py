@@ -9,10 +9,10 @@ import pytest
 
 from treadwell.errors import InputError, RecordingError
 from treadwell.physics.audit import steps_per_tick
-from treadwell.physics.motors import JointTargets
 from treadwell.physics.parts import PARTS
 from treadwell.physics.recorded_audit import join_parts, replay_audit, replay_lengths
 from treadwell.physics.simulation import Simulation, Start
+from treadwell.protocols import JointTargets
 from treadwell.robot.load import Robot, load_robot
 
 

@@ -249,7 +249,7 @@ class Broken:
         self.calls += 1
         raise RuntimeError("a wheel came off")
 
-    segment = insert = view = correct = estimate = plan = next = fail
+    segment = insert = view = correct = estimate = plan = next = step = fail
 
 
 @pytest.mark.parametrize("slot", PARTS)
@@ -328,7 +328,7 @@ def test_an_answer_that_makes_no_sense_is_an_error_with_the_parts_name(
         def fail(self, *_: object) -> Any:  # noqa: ANN401 - whatever it is
             return answer
 
-        segment = insert = view = correct = estimate = plan = next = fail
+        segment = insert = view = correct = estimate = plan = next = step = fail
 
     parts: dict[str, Any] = {slot: Odd()}
     with pytest.raises(CoreError, match=message):

@@ -13,9 +13,9 @@ from treadwell.course.build import build_course
 from treadwell.course.course import Course
 from treadwell.course.events import PUSH_SECONDS, Events
 from treadwell.course.geometry import PARKED
-from treadwell.physics.motors import JointTargets
 from treadwell.physics.recorded_audit import replay_audit
 from treadwell.physics.simulation import Simulation, Start
+from treadwell.protocols import JointTargets
 from treadwell.robot.load import load_robot
 from treadwell.scenario.events import EVENTS
 from treadwell.scenario.loading import load_scenario

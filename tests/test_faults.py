@@ -8,7 +8,8 @@ import pytest
 from treadwell.episode import Episode
 from treadwell.errors import InputError
 from treadwell.observation import Frame, Observation
-from treadwell.physics.motors import JointTargets, LateTargets, strengths
+from treadwell.physics.motors import LateTargets, strengths
+from treadwell.protocols import JointTargets
 from treadwell.scenario.event_table import EventTable
 from treadwell.scenario.faults import FAULTS, Fault
 from treadwell.scenario.loading import load_scenario

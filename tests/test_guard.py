@@ -104,7 +104,7 @@ def test_the_limit_goes_for_every_method_of_every_slot(slot: str) -> None:
         def wait(self, *_: object) -> None:
             time.sleep(60)
 
-        segment = insert = view = correct = estimate = plan = next = wait
+        segment = insert = view = correct = estimate = plan = next = step = wait
 
     guard = Guard(slot, "Slow", Slow(), 0.05)
     for method in METHODS[slot]:

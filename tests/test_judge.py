@@ -8,7 +8,7 @@ import pytest
 from episode_builders import STEP, World, qrio, world
 
 from treadwell.judging.judge import STUCK_SECONDS, Judge
-from treadwell.physics.motors import JointTargets
+from treadwell.protocols import JointTargets
 
 
 def judge_of(made: World) -> Judge:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from treadwell._core import Servos
-from treadwell.physics.motors import JointTargets
+from treadwell.protocols import JointTargets
 from treadwell.robot.motor_limits import LEAST_SHARE, MotorLimits, rotors
 
 STEP = 0.002

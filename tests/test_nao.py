@@ -8,8 +8,8 @@ import pytest
 
 from treadwell._core import Walker
 from treadwell.episode import Episode
-from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation
+from treadwell.protocols import JointTargets
 from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import Robot, load_robot
 from treadwell.scenario.model import Sensors as Settings

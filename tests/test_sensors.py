@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from treadwell.observation import Observation
-from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import TICK_NS, Simulation
+from treadwell.protocols import JointTargets
 from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import load_robot
 from treadwell.senses.sensors import Sensors

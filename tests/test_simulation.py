@@ -10,8 +10,8 @@ from robot_builders import qrio_copy
 
 from treadwell._core import Physics, Servos
 from treadwell.errors import SimulationError
-from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
+from treadwell.protocols import JointTargets
 from treadwell.robot.load import Robot, load_robot
 
 

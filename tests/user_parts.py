@@ -4,17 +4,29 @@ from typing import Any
 
 import numpy as np
 
-from treadwell._core import BodyState, FloorView, Goal, Planes, Scan, Situation, Staircase
+from treadwell._core import (
+    BodyState,
+    Command,
+    FloorView,
+    Goal,
+    Planes,
+    Proprioception,
+    Scan,
+    Situation,
+    Staircase,
+)
 from treadwell.protocols import (
     Behaviour,
     Decision,
     FloorMap,
+    JointTargets,
     Localizer,
     Plan,
     Planner,
     Pose,
     Segmentation,
     Segmenter,
+    Walker,
     WorldModel,
 )
 
@@ -95,12 +107,27 @@ class Meadow:
         return self.View()
 
 
+class Statue:
+    """A walker: holds the upright stance, whatever it is told, and turns the head."""
+
+    def __init__(self) -> None:
+        self.seen: list[tuple[Command, Proprioception]] = []
+
+    def step(self, command: Command, proprioception: Proprioception) -> JointTargets:
+        self.seen.append((command, proprioception))
+        position = proprioception.stand
+        for joint, angle in command.head.items():
+            position[joint] = angle
+        return JointTargets.at(position)
+
+
 PARTS: dict[str, type[Any]] = {
     "planner": Straight,
     "behaviour": Still,
     "localizer": Legs,
     "segmenter": AllGround,
     "world_model": Meadow,
+    "walker": Statue,
 }
 
 # The types say the same as the protocols.
@@ -109,3 +136,4 @@ _behaviour: Behaviour = Still()
 _localizer: Localizer = Legs()
 _segmenter: Segmenter = AllGround()
 _world_model: WorldModel = Meadow()
+_walker: Walker = Statue()

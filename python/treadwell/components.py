@@ -34,6 +34,8 @@ CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re
 
 
 def parameter_tables() -> list[str]:
-    """Return the names that a table `[navigation.<name>]` can have, sorted."""
-    names = {name for slot in COMPONENTS.values() for name in slot}
-    return sorted((names | set(_core.tables())) - {"gait"})
+    """Return the names that a table `[navigation.<name>]` can have, sorted.
+
+    What has no parameters has none; those of the walker `dcm` are `[gait]` of robot.toml.
+    """
+    return sorted(set(_core.tables()) - {"gait"})

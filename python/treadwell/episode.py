@@ -23,10 +23,10 @@ from treadwell.judging.judge import Judge
 from treadwell.judging.truth_localizer import TruthLocalizer
 from treadwell.judging.verdict import Referee, Verdict
 from treadwell.observation import Observation
-from treadwell.physics.motors import JointTargets, LateTargets, strengths
+from treadwell.physics.motors import LateTargets, strengths
 from treadwell.physics.simulation import TICK_NS, Simulation, Start
 from treadwell.plugins import class_names, class_path
-from treadwell.protocols import Footstep, Pose
+from treadwell.protocols import Footstep, JointTargets, Pose
 from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import load_robot
 from treadwell.scenario.faults import Fault

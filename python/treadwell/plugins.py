@@ -17,7 +17,7 @@ from treadwell.class_source import check_class, check_methods
 from treadwell.components import CLASS_NAME, COMPONENTS
 from treadwell.errors import InputError
 from treadwell.module_source import locate
-from treadwell.protocols import Behaviour, Localizer, Planner, Segmenter, WorldModel
+from treadwell.protocols import Behaviour, Localizer, Planner, Segmenter, Walker, WorldModel
 
 METHODS = {
     "segmenter": ("segment",),
@@ -25,6 +25,7 @@ METHODS = {
     "localizer": ("correct", "estimate"),
     "planner": ("plan",),
     "behaviour": ("next",),
+    "walker": ("step",),
 }
 """Slot -> the methods of its protocol in `treadwell.protocols`."""
 
@@ -34,6 +35,7 @@ PROTOCOLS: dict[str, type] = {
     "localizer": Localizer,
     "planner": Planner,
     "behaviour": Behaviour,
+    "walker": Walker,
 }
 """Slot -> its protocol."""
 
@@ -43,6 +45,7 @@ OPTIONAL = {
     "localizer": ("begin", "see"),
     "planner": ("begin", "forget"),
     "behaviour": ("begin",),
+    "walker": ("begin", "standing", "stepping", "steps_taken"),
 }
 """Slot -> the methods that are called where a component has them."""
 

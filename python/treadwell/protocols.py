@@ -1,4 +1,4 @@
-"""The five components that a user can replace, as protocols of the same shape as the core's traits.
+"""The six components that a user can replace, as protocols of the same shape as the core's traits.
 
 A component is chosen by name, by `package.module:Class` in a scenario, or given as an object to
 `treadwell.run`. Inputs are read-only. What a method raises ends the episode with the outcome
@@ -12,12 +12,23 @@ may have or not are said with its protocol.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell._core import BodyState, FloorView, Goal, Octree, Planes, Scan, Situation, Staircase
+from treadwell._core import (
+    BodyState,
+    Command,
+    FloorView,
+    Goal,
+    Octree,
+    Planes,
+    Proprioception,
+    Scan,
+    Situation,
+    Staircase,
+)
 
 Pose = tuple[float, float, float, float]
 
@@ -211,3 +222,45 @@ class Behaviour(Protocol):
 
     def next(self, situation: Situation, /) -> Decision:
         """Return the decision at a control tick."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointTargets:
+    """What the joints are asked for at one control tick; arrays by the robot's joint order.
+
+    Attributes:
+        position: (n,) rad.
+        velocity: (n,) rad/s.
+        torque: (n,) N·m, fed forward: added to what the servo does for position and velocity.
+    """
+
+    position: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    torque: NDArray[np.float64]
+
+    @classmethod
+    def at(cls, position: NDArray[np.float64]) -> Self:
+        """Return targets that hold these angles, (n,) rad: no velocity, nothing fed forward."""
+        still = np.zeros(len(position))
+        return cls(position, still, still)
+
+
+class Walker(Protocol):
+    """Moves all joints as it is told, by what the body feels.
+
+    It may have three more methods, without arguments, each called after every `step`:
+
+    - `standing() -> bool`: whether the robot stands still on both soles. Without it, it stands once
+      it was told to and both feet have borne for as long as a step takes (`gait.step_time`).
+    - `steps_taken() -> int`: landings so far. Without it they are counted by the feet's loads.
+    - `stepping() -> Stepping`, of `treadwell._core`: how the listed footsteps go. Only a walker
+      that has it is given footsteps; with any other, `Situation.takes_footsteps` is False, and
+      the robot refuses with `walker: ...` where a behaviour lists footsteps all the same.
+    """
+
+    def step(self, command: Command, proprioception: Proprioception, /) -> JointTargets:
+        """Return the targets of all joints for one control tick.
+
+        Called at every control tick of 10 ms. What turns the head to where the command looks is in
+        `command.head`.
+        """

@@ -2,27 +2,13 @@
 
 from collections import deque
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell.protocols import JointTargets
+
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class JointTargets:
-    """What the core asks of the joints at one control tick; arrays by the robot's joint order.
-
-    Attributes:
-        position: (n,) rad.
-        velocity: (n,) rad/s.
-        torque: (n,) N·m, fed forward.
-    """
-
-    position: Floats
-    velocity: Floats
-    torque: Floats
 
 
 class LateTargets:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from treadwell._core import Physics, Servos
 from treadwell.errors import SimulationError
 from treadwell.physics.audit import DATA_FIELDS, Audit, steps_per_tick
-from treadwell.physics.motors import JointTargets
+from treadwell.protocols import JointTargets
 from treadwell.robot.load import Robot
 
 TICK_NS = 10_000_000

@@ -111,10 +111,12 @@ class Navigation(Table):
     """What finds the way."""
     behaviour: str = "stair_climbing"
     """What decides."""
+    walker: str = "dcm"
+    """What moves the legs."""
     call_limit: Annotated[Seconds, Field(ge=0.001)] = 30.0
     """Seconds of wall-clock time that one call of a component in Python may take."""
 
-    @field_validator("world_model", "segmenter", "localizer", "planner", "behaviour")
+    @field_validator(*COMPONENTS)
     @classmethod
     def _is_a_component(cls, value: str, info: ValidationInfo) -> str:
         slot = str(info.field_name)
@@ -128,7 +130,8 @@ class Navigation(Table):
 
     @model_validator(mode="after")
     def _tables_are_parameters(self) -> Self:
-        own = {value.rpartition(":")[2] for value in self.slots().values()}
+        foreign = (name for slot, name in self.slots().items() if name not in COMPONENTS[slot])
+        own = {name.rpartition(":")[2] for name in foreign}
         for key, value in (self.model_extra or {}).items():
             if key not in {*parameter_tables(), *own}:
                 raise PydanticCustomError("extra_forbidden", "unknown key", {"key": key})

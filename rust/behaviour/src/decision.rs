@@ -47,6 +47,8 @@ pub struct Situation<'a> {
     pub standing: bool,
     /// Where the soles are, left and right.
     pub soles: [SoleAt; 2],
+    /// Whether the walker takes listed footsteps. Who lists them for one that does not refuses.
+    pub takes_footsteps: bool,
     /// How the listed footsteps go.
     pub stepping: Stepping,
     /// Where the head looks now.

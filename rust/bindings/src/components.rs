@@ -4,6 +4,7 @@ mod behaviour;
 mod localizer;
 mod planner;
 mod segmenter;
+mod walker;
 mod world_model;
 
 use pyo3::conversion::FromPyObjectOwned;
@@ -15,6 +16,7 @@ pub(crate) use behaviour::behaviour;
 pub(crate) use localizer::localizer;
 pub(crate) use planner::planner;
 pub(crate) use segmenter::segmenter;
+pub(crate) use walker::walker;
 pub(crate) use world_model::{read_view, world_model};
 
 /// The sentence of a Python exception, with its type.

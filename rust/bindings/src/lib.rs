@@ -35,6 +35,7 @@ mod stairs;
 mod topology;
 mod truth;
 mod walker;
+mod walker_senses;
 mod ways;
 mod world_model;
 
@@ -94,6 +95,8 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<truth::PySurfaces>()?;
     module.add_class::<truth::PyTrueStance>()?;
     module.add_class::<walker::PyWalker>()?;
+    module.add_class::<walker_senses::PyCommand>()?;
+    module.add_class::<walker_senses::PyProprioception>()?;
     module.add_class::<ways::PyWays>()?;
     module.add_class::<world_model::PyOccupancyGrid>()?;
     module.add_class::<world_model::PyWorldModel>()

@@ -25,7 +25,11 @@ fn not_so(name: &Bound<'_, PyString>, must: &str, got: impl std::fmt::Display) -
 }
 
 /// The attribute `name`, as `what` says.
-fn field<'py, T>(object: &Bound<'py, PyAny>, name: &Bound<'py, PyString>, what: &str) -> PyResult<T>
+pub(crate) fn field<'py, T>(
+    object: &Bound<'py, PyAny>,
+    name: &Bound<'py, PyString>,
+    what: &str,
+) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py>,
 {
@@ -48,7 +52,7 @@ where
 }
 
 const NANOSECONDS: &str = "be whole nanoseconds, 0 or more";
-const VECTOR: &str = "be an array with 1 axis of float64";
+pub(crate) const VECTOR: &str = "be an array with 1 axis of float64";
 
 fn read_vector(
     object: &Bound<'_, PyAny>,

@@ -75,7 +75,7 @@ impl PyPilot {
         clippy::too_many_arguments,
         reason = "one keyword argument of Python's each"
     )]
-    #[pyo3(signature = (settings, *, static_map=None, segmenter=None, world_model=None, localizer=None, planner=None, behaviour=None))]
+    #[pyo3(signature = (settings, *, static_map=None, segmenter=None, world_model=None, localizer=None, planner=None, behaviour=None, walker=None))]
     fn new(
         py: Python<'_>,
         settings: &str,
@@ -85,14 +85,17 @@ impl PyPilot {
         localizer: Option<Py<PyAny>>,
         planner: Option<Py<PyAny>>,
         behaviour: Option<Py<PyAny>>,
+        walker: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let settings: Settings = parse(py, settings)?;
+        let walker = walker.map(|object| components::walker(py, object, &settings.robot));
         let given = Components {
             segmenter: segmenter.map(components::segmenter),
             world_model: world_model.map(components::world_model),
             localizer: localizer.map(components::localizer),
             planner: planner.map(components::planner),
             behaviour: behaviour.map(components::behaviour),
+            walker: walker.transpose()?,
         };
         let static_map = static_map.map(|octree| octree.tree());
         // Before the first tick whatever is refused is what the user gave: a setting, the robot, the map.

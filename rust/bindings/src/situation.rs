@@ -124,6 +124,9 @@ pub(crate) struct PySituation {
     /// The way's legs that are climbed, in their order; empty where no way is known.
     #[pyo3(get)]
     climbs: Vec<PyClimb>,
+    /// Whether the walker takes listed footsteps. One that lists them for a walker that does not refuses.
+    #[pyo3(get)]
+    takes_footsteps: bool,
     /// How the listed footsteps go.
     #[pyo3(get)]
     stepping: PyStepping,
@@ -153,6 +156,7 @@ impl PySituation {
             climbs: path.map_or_else(Vec::new, |path| {
                 path.climbs.iter().map(PyClimb::from).collect()
             }),
+            takes_footsteps: situation.takes_footsteps,
             stepping: situation.stepping.into(),
         }
     }

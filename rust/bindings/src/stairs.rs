@@ -3,6 +3,7 @@
 use behaviour::{Footstep, Misstep, Motion, StepManner, Stepping};
 use geometry::{Map, PlanarPose, Point};
 use planning::{Climb, Step};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use robot::Side;
 use stairs::{Edge, EdgeFit, Stair, Staircase};
@@ -212,6 +213,56 @@ pub(crate) struct PyStepping {
     stumbled: bool,
     /// "no_ground" or "obstructed" when a step was taken back and the list given up, else None.
     pub(crate) misstep: Option<&'static str>,
+}
+
+#[pymethods]
+impl PyStepping {
+    /// What a walker of the user's says of its steps.
+    #[new]
+    #[pyo3(signature = (landed=0, height_error=0.0, *, stumbled=false, misstep=None))]
+    fn new(
+        landed: usize,
+        height_error: f64,
+        stumbled: bool,
+        misstep: Option<&str>,
+    ) -> PyResult<Self> {
+        let misstep = match misstep {
+            None => None,
+            Some("no_ground") => Some(Misstep::NoGround),
+            Some("obstructed") => Some(Misstep::Obstructed),
+            Some(other) => {
+                return Err(PyValueError::new_err(format!(
+                    "misstep must be no_ground, obstructed or None, got {other}"
+                )));
+            }
+        };
+        if !height_error.is_finite() {
+            return Err(PyValueError::new_err(format!(
+                "height_error must be finite, got {height_error:?}"
+            )));
+        }
+        Ok(Stepping {
+            landed,
+            height_error_m: height_error,
+            misstep,
+            stumbled,
+        }
+        .into())
+    }
+}
+
+impl From<PyStepping> for Stepping {
+    fn from(stepping: PyStepping) -> Self {
+        Self {
+            landed: stepping.landed,
+            height_error_m: stepping.height_error,
+            stumbled: stepping.stumbled,
+            misstep: stepping.misstep.map(|misstep| match misstep {
+                "no_ground" => Misstep::NoGround,
+                _ => Misstep::Obstructed,
+            }),
+        }
+    }
 }
 
 impl From<Stepping> for PyStepping {

@@ -1,4 +1,4 @@
-//! The walker alone, with the senses that it needs: for walking trials without camera and map.
+//! The core's own walker alone, with the senses that it needs: for walking trials without camera and map.
 
 use behaviour::{Arms, Command, Gaze, Motion, Velocity};
 use geometry::{Odometry, Point, Pose, Robot};
@@ -8,8 +8,8 @@ use proprioception::{Proprioception, ProprioceptionConfig};
 use pyo3::prelude::*;
 use robot::Body;
 use sensing::{Frame, Observation};
-use walking::Walker;
 use walking::relief::Slopes;
+use walking::{DcmWalker, Walker, WalkerSenses};
 
 use crate::error::{bad_setting, failed, parse, unreadable};
 use crate::observation;
@@ -51,8 +51,9 @@ enum Told {
 /// Walks as it is told: proprioception and walker of one robot.
 #[pyclass(name = "Walker", module = "treadwell._core")]
 pub(crate) struct PyWalker {
+    body: Body,
     proprioception: Proprioception,
-    walker: Walker,
+    walker: DcmWalker,
     observation: Observation,
     spare: Option<Frame>,
     command: Command,
@@ -68,7 +69,8 @@ impl PyWalker {
         Ok(Self {
             proprioception: Proprioception::new(&body, ProprioceptionConfig::default())
                 .map_err(|error| bad_setting(py, &error))?,
-            walker: Walker::new(&body).map_err(|error| bad_setting(py, &error))?,
+            walker: DcmWalker::new(&body).map_err(|error| bad_setting(py, &error))?,
+            body,
             observation: observation::empty(),
             spare: None,
             command: Command::default(),
@@ -110,9 +112,12 @@ impl PyWalker {
             .walker
             .step(
                 &self.command,
-                &self.observation,
-                state,
-                slope.as_ref().map(|slope| slope as &dyn Slopes),
+                &WalkerSenses {
+                    body: &self.body,
+                    observation: &self.observation,
+                    state,
+                    slopes: slope.as_ref().map(|slope| slope as &dyn Slopes),
+                },
             )
             .map_err(|error| failed(py, &error))?;
         self.proprioception.note_command(

@@ -8,7 +8,7 @@ use walking::{Met, Walker};
 use crate::Perception;
 
 /// Tells the map what a foot met at the last tick.
-pub(crate) fn tell(walker: &Walker, estimate: &Estimate, perception: &mut Perception) {
+pub(crate) fn tell(walker: &dyn Walker, estimate: &Estimate, perception: &mut Perception) {
     if let Some(met) = walker.met() {
         let world_model = &mut perception.world_model;
         let felt = in_map(&met, &estimate.map_from_robot, world_model.view());

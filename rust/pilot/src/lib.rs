@@ -18,7 +18,8 @@ mod ways;
 
 pub use error::PilotError;
 pub use parts::{
-    BEHAVIOURS, LOCALIZERS, ListedPart, PLANNERS, SEGMENTERS, Slot, WORLD_MODELS, components,
+    BEHAVIOURS, LOCALIZERS, ListedPart, PLANNERS, SEGMENTERS, Slot, WALKERS, WORLD_MODELS,
+    components,
 };
 pub use perception::{Perception, PerceptionConfig, PerceptionTuning};
 pub use range_map::{RangeMap, SightNeeds};

@@ -8,6 +8,7 @@ use mapping::WorldModelPart;
 use planning::PlannerPart;
 use segmentation::SegmenterPart;
 use settings::{ConfigError, Part};
+use walking::WalkerPart;
 
 /// The parts of one slot of `[navigation]`.
 #[derive(Debug)]
@@ -27,6 +28,8 @@ pub static LOCALIZERS: Slot<LocalizerPart> = Slot::new("localizer", localization
 pub static PLANNERS: Slot<PlannerPart> = Slot::new("planner", planning::PARTS);
 /// What decides.
 pub static BEHAVIOURS: Slot<BehaviourPart> = Slot::new("behaviour", behaviour::PARTS);
+/// What moves the legs.
+pub static WALKERS: Slot<WalkerPart> = Slot::new("walker", walking::PARTS);
 
 /// What lists show of a part, with its slot's name: all but how it is made.
 pub type ListedPart = (&'static str, Part<()>);
@@ -90,6 +93,7 @@ pub fn components() -> Vec<ListedPart> {
         .chain(LOCALIZERS.listed())
         .chain(PLANNERS.listed())
         .chain(BEHAVIOURS.listed())
+        .chain(WALKERS.listed())
         .collect()
 }
 

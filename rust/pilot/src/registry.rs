@@ -14,11 +14,14 @@ use sensing::Intrinsics;
 use settings::{Table, read};
 use stairs::{Feet, Recognizer};
 use volume::octree::Octree;
+use walking::{GaitConfig, Walker, WalkerNeeds};
 
 use crate::step_limits::step_limits;
-use crate::{BEHAVIOURS, LOCALIZERS, PLANNERS, PilotError, SEGMENTERS, Settings, WORLD_MODELS};
+use crate::{
+    BEHAVIOURS, LOCALIZERS, PLANNERS, PilotError, SEGMENTERS, Settings, WALKERS, WORLD_MODELS,
+};
 
-/// The five components. One that is `None` is built by its name in the settings.
+/// The six components. One that is `None` is built by its name in the settings.
 #[derive(Default)]
 pub struct Components {
     /// Finds planes.
@@ -31,6 +34,8 @@ pub struct Components {
     pub planner: Option<Box<dyn Planner>>,
     /// Decides.
     pub behaviour: Option<Box<dyn Behaviour>>,
+    /// Moves the legs.
+    pub walker: Option<Box<dyn Walker>>,
 }
 
 /// All that the parts of a pilot are made of.
@@ -100,6 +105,14 @@ impl Making<'_> {
         )?)
     }
 
+    pub(crate) fn walker(&self) -> Result<Box<dyn Walker>, PilotError> {
+        let needs = WalkerNeeds {
+            tables: &self.settings.navigation.tables,
+            body: self.body,
+        };
+        Ok(WALKERS.find(&self.settings.navigation.walker)?(&needs)?)
+    }
+
     pub(crate) fn recognizer(&self) -> Result<Recognizer, PilotError> {
         let config = read(&self.settings.navigation.tables, "stairs")?;
         Ok(Recognizer::new(config, self.camera)?)
@@ -117,10 +130,11 @@ pub(crate) fn known_map(
     Ok(told.map(made).transpose()?)
 }
 
-/// The body's feet, side by side as the walker stands on them, their middles so far apart.
-pub(crate) fn feet(body: &Body, stance_m: f64) -> Feet {
+/// The body's feet, side by side as its gait stands on them.
+pub(crate) fn feet(body: &Body, gait: &GaitConfig) -> Feet {
     let legs = &body.description().legs;
     let [left, right] = Side::BOTH.map(|side| &legs.get(side).sole);
+    let stance_m = gait.stance_width;
     Feet {
         length_m: left.length.min(right.length),
         pair_width_m: stance_m + 0.5 * (left.width + right.width),

@@ -60,9 +60,16 @@ pub struct Navigation {
     pub planner: String,
     /// Name of the behaviour.
     pub behaviour: String,
+    /// Name of the walker. Recordings from before there was a choice do not say it.
+    #[serde(default = "first_walker")]
+    pub walker: String,
     /// `[navigation.<name>]`, as the user wrote them.
     #[serde(flatten)]
     pub tables: BTreeMap<String, serde_json::Value>,
+}
+
+fn first_walker() -> String {
+    "dcm".to_owned()
 }
 
 impl Settings {

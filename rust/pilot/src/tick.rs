@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use behaviour::{Behaviour, Decision, PlannedFootsteps, Situation, SoleAt};
+use behaviour::{Behaviour, Command, Decision, PlannedFootsteps, Situation, SoleAt};
 use geometry::{Map, Odometry, PlanarPose, Pose, Robot};
 use localization::{Estimate, Localizer};
 use mapping::{FeltConfig, FloorView, Overlay};
@@ -18,7 +18,7 @@ use sensing::{
 use settings::{Table as _, read};
 use volume::octree::Octree;
 use walking::relief::{Mapped, Slopes};
-use walking::{JointTargets, WalkError, Walker};
+use walking::{GaitConfig, JointTargets, ReliefTuning, WalkError, Walker, WalkerSenses};
 
 use crate::feeling;
 use crate::goals::Goals;
@@ -46,7 +46,8 @@ pub struct Pilot {
     pub planner: Box<dyn Planner>,
     behaviour: Box<dyn Behaviour>,
     /// What moves the legs.
-    pub walker: Walker,
+    pub walker: Box<dyn Walker>,
+    gait: GaitConfig,
     goals: Goals,
     /// The way to the current goal, once one was planned.
     pub plan: Option<Plan>,
@@ -72,15 +73,29 @@ pub struct Tick<'a> {
 
 /// Moves the legs, on ground with the slopes that the map has where the robot believes to be.
 fn walk<'a>(
-    walker: &'a mut Walker,
-    decision: &Decision,
-    observation: &Observation,
-    state: &BodyState,
+    walker: &'a mut dyn Walker,
+    (command, relief): (&Command, &ReliefTuning),
+    (body, observation, state): (&Body, &Observation, &BodyState),
     (view, estimate): (&FloorView, &Estimate),
 ) -> Result<&'a JointTargets, WalkError> {
-    let slopes = Mapped::around(view, &estimate.map_from_robot, walker.relief_tuning());
-    let slopes = slopes.as_ref().map(|slopes| slopes as &dyn Slopes);
-    walker.step(&decision.command, observation, state, slopes)
+    let slopes = Mapped::around(view, &estimate.map_from_robot, relief);
+    let senses = WalkerSenses {
+        body,
+        observation,
+        state,
+        slopes: slopes.as_ref().map(|slopes| slopes as &dyn Slopes),
+    };
+    walker.step(command, &senses)
+}
+
+/// The body's senses take note of what the motors are told.
+fn note(targets: &JointTargets, senses: &mut SenseWatch, proprioception: &mut Proprioception) {
+    senses.note_command(&targets.positions_rad);
+    proprioception.note_command(
+        &targets.positions_rad,
+        &targets.velocities_radps,
+        &targets.torques_nm,
+    );
 }
 
 /// Where the soles are, left and right, by the joints.
@@ -107,7 +122,7 @@ impl Pilot {
     ) -> Result<Self, PilotError> {
         let known_map = registry::known_map(settings, static_map)?;
         let body = Body::new(settings.robot.clone())?;
-        let walker = Walker::new(&body)?;
+        let (gait, _) = GaitConfig::read(&body)?;
         let mount = &body.description().camera;
         let camera = Intrinsics::from(mount);
         let tables = &settings.navigation.tables;
@@ -117,7 +132,7 @@ impl Pilot {
         let making = Making {
             settings,
             body: &body,
-            feet: registry::feet(&body, walker.stance_width_m()),
+            feet: registry::feet(&body, &gait),
             camera: scan.camera,
             known_map: known_map.as_ref(),
         };
@@ -150,7 +165,8 @@ impl Pilot {
             localizer: (given.localizer).map_or_else(|| making.localizer(), Ok)?,
             planner: given.planner.map_or_else(|| making.planner(), Ok)?,
             behaviour: (given.behaviour).map_or_else(|| making.behaviour(), Ok)?,
-            walker,
+            walker: given.walker.map_or_else(|| making.walker(), Ok)?,
+            gait,
             goals: Goals::new(&settings.goals)?,
             plan: None,
             replans: 0,
@@ -188,7 +204,7 @@ impl Pilot {
         let estimate = self
             .timing
             .measure(Stage::Localize, || self.localizer.estimate(state))?;
-        feeling::tell(&self.walker, &estimate, &mut self.perception);
+        feeling::tell(self.walker.as_ref(), &estimate, &mut self.perception);
         let situation = Situation {
             time_ns: observation.time_ns,
             estimate: &estimate,
@@ -199,6 +215,7 @@ impl Pilot {
             last_goal: self.goals.is_last(),
             soles: soles(&self.body, state),
             standing: self.walker.standing(),
+            takes_footsteps: self.walker.takes_footsteps(),
             stepping: self.walker.stepping(),
             gaze: self.walker.gaze(),
             frames_used: self.perception.frames_used,
@@ -214,17 +231,15 @@ impl Pilot {
             self.goals.advance();
             self.plan = None;
         }
-        let (walker, view) = (&mut self.walker, self.perception.world_model.view());
-        let targets = self.timing.measure(Stage::Walk, || {
-            walk(walker, &decision, observation, state, (view, &estimate))
-        })?;
+        let told = (&decision.command, &self.gait.tuning.relief);
+        let felt = (&self.body, observation, state);
+        let seen = (self.perception.world_model.view(), &estimate);
+        let walker = self.walker.as_mut();
+        let targets = self
+            .timing
+            .measure(Stage::Walk, || walk(walker, told, felt, seen))?;
         let dead_reckoning = self.map_from_odometry_at_start * state.odometry_from_robot;
-        self.senses.note_command(&targets.positions_rad);
-        self.proprioception.note_command(
-            &targets.positions_rad,
-            &targets.velocities_radps,
-            &targets.torques_nm,
-        );
+        note(targets, &mut self.senses, &mut self.proprioception);
         Ok(Tick {
             targets,
             estimate,

@@ -27,7 +27,7 @@ impl Ways {
     pub fn new(name: &str, tables: &Tables, robot: Description) -> Result<Self, PilotError> {
         let body = Body::new(robot)?;
         let (gait, _) = GaitConfig::read(&body)?;
-        let feet = registry::feet(&body, gait.stance_width);
+        let feet = registry::feet(&body, &gait);
         let needs = PlannerNeeds {
             tables,
             body: &body,

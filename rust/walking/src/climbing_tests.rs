@@ -7,6 +7,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::phase::Bearing;
 use crate::test_biped::{Ideal, config};
+use crate::walker::Walker;
 
 pub(super) const TREAD_M: f64 = 0.12;
 pub(super) const HALF_SOLE_M: f64 = 0.0525;

@@ -22,4 +22,7 @@ pub enum WalkError {
         /// What is wrong with it.
         what: String,
     },
+    /// A walker of the user's failed.
+    #[error("{0}")]
+    Failed(String),
 }

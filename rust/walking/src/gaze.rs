@@ -11,7 +11,7 @@ const SMALL_RAD: f64 = 0.01;
 
 /// Moves pan and tilt with limited speed.
 #[derive(Debug, Clone)]
-pub(crate) struct HeadControl {
+pub struct HeadControl {
     joints: [usize; 2],
     ranges_rad: [[f64; 2]; 2],
     signs: [f64; 2],
@@ -22,7 +22,7 @@ pub(crate) struct HeadControl {
 
 impl HeadControl {
     /// Learns from the kinematics how the head's joints turn the camera when all other joints are as in the upright stance.
-    pub(crate) fn new(body: &Body, speed_radps: f64) -> Result<Self, WalkError> {
+    pub fn new(body: &Body, speed_radps: f64) -> Result<Self, WalkError> {
         let description = body.description();
         let names = [&description.head.pan, &description.head.tilt];
         let mut joints = [0; 2];
@@ -60,7 +60,7 @@ impl HeadControl {
     }
 
     /// Turns towards `gaze` for `passed_s`; writes angles and speeds of both joints.
-    pub(crate) fn turn(&mut self, gaze: &Gaze, passed_s: f64, targets: &mut JointTargets) {
+    pub fn turn(&mut self, gaze: &Gaze, passed_s: f64, targets: &mut JointTargets) {
         let wanted = [
             gaze.pan_rad * self.signs[0],
             (gaze.down_rad - self.down_at_zero_rad) * self.signs[1],
@@ -81,8 +81,13 @@ impl HeadControl {
         }
     }
 
+    /// The joints that pan and tilt, by the joint order.
+    pub const fn joints(&self) -> [usize; 2] {
+        self.joints
+    }
+
     /// Where it was told to look at the last tick.
-    pub(crate) fn gaze(&self) -> Gaze {
+    pub fn gaze(&self) -> Gaze {
         Gaze {
             pan_rad: self.angles_rad[0] * self.signs[0],
             down_rad: self.angles_rad[1] * self.signs[1] + self.down_at_zero_rad,

@@ -1,5 +1,6 @@
 //! From commands to joint targets: footsteps, centre of mass, swing foot, leg inverse kinematics, stabiliser.
 //!
+//! A [`Walker`] is chosen by its name; the crate's own is [`DcmWalker`], and all else here is what that is made of.
 //! [`Gait`](gait::Gait) decides which foot moves where and when, [`dcm`] gives the motion of the centre of mass for it,
 //! [`balance`] measures how far the robot is from it, [`support`] says where the feet have to push, [`capture`] moves a step when
 //! pushing is not enough, and [`leg`] turns all of it into joint angles.
@@ -11,9 +12,11 @@ pub mod balance;
 pub mod capture;
 mod config;
 pub mod dcm;
+mod dcm_walker;
 mod error;
 pub mod feet;
 mod felt;
+mod felt_gait;
 pub mod footsteps;
 pub mod gait;
 mod gaze;
@@ -43,7 +46,14 @@ mod tuning;
 mod walker;
 
 pub use config::GaitConfig;
+pub use dcm_walker::DcmWalker;
 pub use error::WalkError;
+pub use felt_gait::FeltGait;
+pub use gaze::HeadControl;
 pub use met::Met;
 pub use targets::JointTargets;
-pub use walker::Walker;
+pub use tuning::ReliefTuning;
+pub use walker::{Walker, WalkerNeeds, WalkerPart, WalkerSenses};
+
+/// The walkers that come with the crate: a new one is a file or folder beside these, and its line here.
+pub const PARTS: &[WalkerPart] = &[dcm_walker::PART];

@@ -5,6 +5,7 @@ use behaviour::Motion;
 use super::climbing_tests::{HALF_SOLE_M, TREAD_M, climb, heights, run, stair, step};
 use super::*;
 use crate::test_biped::Ideal;
+use crate::walker::Walker;
 
 #[test]
 fn a_list_that_is_done_is_not_walked_again_but_a_new_one_is() {

@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use super::climbing_tests::{HALF_SOLE_M, TREAD_M, climb, heights, run, step};
 use super::*;
 use crate::test_biped::{Ideal, config};
+use crate::walker::Walker;
 
 const WHOLE_M: [f64; 2] = [-HALF_SOLE_M, HALF_SOLE_M];
 const UP_M: f64 = 0.03;

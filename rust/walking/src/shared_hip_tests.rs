@@ -7,6 +7,7 @@ use robot::LinkPoses;
 use super::*;
 use crate::test_biped::{Ideal, biped, shared_hip_description};
 use crate::tuning::LegTuning;
+use crate::walker::Walker;
 
 fn body() -> Body {
     Body::new(shared_hip_description()).unwrap()

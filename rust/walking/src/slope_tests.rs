@@ -4,7 +4,9 @@ use behaviour::{Motion, Velocity};
 
 use super::*;
 use crate::phase::FootPose;
+use crate::relief::Slopes;
 use crate::test_biped::Ideal;
+use crate::walker::Walker;
 
 const BEGINS_M: f64 = 0.2;
 const RISE: f64 = 0.17;
@@ -53,7 +55,7 @@ struct FromPlan {
 }
 
 impl FromPlan {
-    fn at(walker: &Walker) -> &'static dyn Slopes {
+    fn at(walker: &DcmWalker) -> &'static dyn Slopes {
         let soles = Side::BOTH.map(|side| walker.foot_in_plan(side).planar.x_m);
         Box::leak(Box::new(Self {
             x_m: 0.5 * (soles[0] + soles[1]),

@@ -13,12 +13,13 @@ use robot::{
 use sensing::Observation;
 
 use crate::config::GaitConfig;
+use crate::dcm_walker::DcmWalker;
 use crate::footsteps::FootstepPlanner;
 use crate::gait::Gait;
 use crate::phase::{FootPose, GaitPhase, Swing};
 use crate::relief::Slopes;
 use crate::targets::JointTargets;
-use crate::walker::Walker;
+use crate::walker::{Walker, WalkerSenses};
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -216,7 +217,7 @@ pub(crate) fn foot_at(x_m: f64, y_m: f64) -> FootPose {
 /// carry, and one that comes down on the ground feels it.
 pub(crate) struct Ideal {
     pub(crate) body: Body,
-    pub(crate) walker: Walker,
+    pub(crate) walker: DcmWalker,
     pub(crate) targets: JointTargets,
     /// Height of the ground at a place, m; where the robot starts it is 0.
     pub(crate) ground_m: fn(f64, f64) -> f64,
@@ -233,7 +234,7 @@ impl Ideal {
     }
 
     pub(crate) fn of(body: Body) -> Self {
-        let walker = Walker::new(&body).unwrap();
+        let walker = DcmWalker::new(&body).unwrap();
         let targets = JointTargets {
             positions_rad: body.description().stand.clone(),
             ..JointTargets::default()
@@ -290,7 +291,15 @@ impl Ideal {
         self.time_ns += 10_000_000;
         self.targets = self
             .walker
-            .step(command, &observation, &state, self.slopes)
+            .step(
+                command,
+                &WalkerSenses {
+                    body: &self.body,
+                    observation: &observation,
+                    state: &state,
+                    slopes: self.slopes,
+                },
+            )
             .unwrap()
             .clone();
     }
@@ -329,7 +338,7 @@ impl Ideal {
 }
 
 /// What only tests ask a walker for.
-impl Walker {
+impl DcmWalker {
     /// Whether the list that was given last is behind the robot: all its steps landed, or it was given up.
     pub(crate) fn list_is_over(&self) -> bool {
         self.list.is_over(&self.gait)

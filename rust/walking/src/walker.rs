@@ -1,266 +1,81 @@
-//! The walker: a command in, targets for all joints out, at every control tick.
+//! What every walker is given and gives. Those that come with the crate stand in `lib.rs`, a line each.
 
-use behaviour::Command;
-use geometry::GRAVITY_MPS2;
-use nalgebra::Vector2;
+use behaviour::{Command, Gaze, Stepping};
 use proprioception::BodyState;
-use robot::{Body, Side};
-use sensing::{Observation, TICK_S};
+use robot::Body;
+use sensing::Observation;
+use settings::{MakeError, Part, Tables};
 
-use crate::ankles::Ankles;
-use crate::arms::ArmsControl;
-use crate::balance::{Balance, Sensed};
-use crate::capture::Capture;
-use crate::config::GaitConfig;
 use crate::error::WalkError;
-use crate::feet::FeetControl;
-use crate::felt::{Felt, KnownGround};
-use crate::footsteps::FootstepPlanner;
-use crate::gait::Gait;
-use crate::gaze::HeadControl;
 use crate::met::Met;
-use crate::pelvis::Course;
-use crate::phase::GaitReference;
-use crate::posture::{Posture, PostureMoment};
-use crate::relief::{Relief, Slopes};
-use crate::stance::UprightStance;
-use crate::step_list::{ListFrame, StepList};
-use crate::support::{Pressure, Soles};
+use crate::relief::Slopes;
 use crate::targets::JointTargets;
 
-mod telling;
-
-/// Walks. One a robot; see the crate's page for the parts.
-#[derive(Debug, Clone)]
-pub struct Walker {
-    body: Body,
-    config: GaitConfig,
-    weight_n: f64,
-    head: HeadControl,
-    arms: ArmsControl,
-    pub(crate) gait: Gait,
-    pub(crate) list: StepList,
-    pub(crate) balance: Balance,
-    soles: Soles,
-    feet_control: FeetControl,
-    ankles: Ankles,
-    capture: Capture,
-    posture: Posture,
-    com: Vector2<f64>,
-    reference: GaitReference,
-    pub(crate) pressure: Pressure,
-    targets: JointTargets,
-    last_ns: Option<u64>,
-    met: Option<Met>,
+/// What a walker can be made of.
+#[derive(Clone, Copy)]
+pub struct WalkerNeeds<'a> {
+    /// The tables of `[navigation]`.
+    pub tables: &'a Tables,
+    /// The robot's body, with its `[gait]`.
+    pub body: &'a Body,
 }
 
-impl Walker {
-    /// A walker for this body, standing as in the body's description; its gait is the description's `[gait]`.
-    pub fn new(body: &Body) -> Result<Self, WalkError> {
-        let (config, stance) = GaitConfig::read(body)?;
-        let UprightStance {
-            rest, feet, com, ..
-        } = stance;
-        let omega = (GRAVITY_MPS2 / com.z).sqrt();
-        let planner = FootstepPlanner::new(&config, body);
-        let gait = Gait::new(&config, planner.clone(), feet);
-        let (joints, middle) = (rest.len(), gait.middle());
-        Ok(Self {
-            weight_n: body.mass_kg() * GRAVITY_MPS2,
-            head: HeadControl::new(body, config.gaze_speed)?,
-            arms: ArmsControl::new(body, &rest, config.arms_time)?,
-            balance: Balance::new(body, &config, omega, com.xy()),
-            soles: Soles::new(body, config.sole_margin),
-            feet_control: FeetControl::new(&config),
-            ankles: Ankles::new(&config, body),
-            capture: Capture::new(&config, planner),
-            posture: Posture::new(body, &config)?,
-            targets: JointTargets {
-                positions_rad: rest,
-                velocities_radps: vec![0.0; joints],
-                torques_nm: vec![0.0; joints],
-            },
-            com: middle,
-            pressure: Pressure {
-                share: [0.5; 2],
-                point: Side::BOTH.map(|side| gait.stance_point(side)),
-                zmp: middle,
-            },
-            reference: GaitReference {
-                zmp: middle,
-                dcm: middle,
-            },
-            last_ns: None,
-            met: None,
-            list: StepList::default(),
-            gait,
-            config,
-            body: body.clone(),
-        })
-    }
+/// A walker that has a name.
+pub type WalkerPart = Part<fn(&WalkerNeeds<'_>) -> Result<Box<dyn Walker>, MakeError>>;
 
-    /// The targets for this tick, on ground with these slopes. Allocates nothing.
-    pub fn step(
+/// What the body tells at a control tick. There is no pose in it but that of the odometry.
+#[derive(Debug, Clone, Copy)]
+pub struct WalkerSenses<'a> {
+    /// The body: order, ranges and upright stance of its joints.
+    pub body: &'a Body,
+    /// What encoders, inertial unit and soles measured.
+    pub observation: &'a Observation,
+    /// What follows from it: attitude, loads, odometry.
+    pub state: &'a BodyState,
+    /// How the ground slopes around the robot, by its map; `None` where that knows of no slope.
+    pub slopes: Option<&'a dyn Slopes>,
+}
+
+/// Moves the legs as it is told.
+pub trait Walker: Send + Sync {
+    /// The targets of all joints for this tick.
+    fn step(
         &mut self,
         command: &Command,
-        observation: &Observation,
-        state: &BodyState,
-        slopes: Option<&dyn Slopes>,
-    ) -> Result<&JointTargets, WalkError> {
-        let passed_s = self.pass(observation.time_ns);
-        self.sense(observation, state, passed_s);
-        let error = self.balance.dcm() - self.reference.dcm;
-        let omega = self.balance.omega;
-        let rate = self
-            .capture
-            .adjust(&mut self.gait, &self.soles, &error, omega, passed_s);
-        self.gait.catch_tipping(&error);
-        let felt = self.feel(observation, state);
-        let frame = self.frame(&felt);
-        self.list.take(&command.motion, &mut self.gait, frame);
-        let relief = Relief::new(slopes, frame.planar, &self.config.tuning.relief);
-        let task = self.list.task(&command.motion, &self.gait, relief);
-        self.gait
-            .advance(passed_s * rate, task, &KnownGround::Felt(felt));
-        self.met = self.gait.take_met().map(|met| met.seen_from(&frame.planar));
-        let task = self.list.task(&command.motion, &self.gait, relief);
-        self.reference = self.gait.reference(omega, task);
-        self.com += (self.reference.dcm - self.com) * (omega * passed_s)
-            + (self.balance.com - self.com) * (self.config.reference_pull * passed_s);
-        self.pressure = self.pressed();
-        self.feet_control.update(
-            &self.gait.phase,
-            &self.pressure.share,
-            &state.foot_loads_n,
-            self.weight_n,
-            passed_s,
-        );
-        let (gait, control) = (&self.gait, &mut self.feet_control);
-        let feet = Side::BOTH.map(|side| control.place(&gait.phase, gait.foot(side), side));
-        let moment = PostureMoment {
-            body: &self.body,
-            course: Course {
-                gait: &self.gait,
-                task,
-                omega,
-                com: self.com,
-            },
-            balance: &self.balance,
-            ankles: &self.ankles,
-            passed_s,
-        };
-        let targets = &mut self.targets;
-        self.posture.pose(&moment, &feet, targets)?;
-        let torques = &mut targets.torques_nm;
-        self.posture
-            .feed_forward(&moment, &state.links, &self.pressure, torques);
-        self.head.turn(&command.gaze, passed_s, &mut self.targets);
-        let standing = self.gait.is_standing();
-        self.arms
-            .turn(command.arms, standing, passed_s, &mut self.targets);
-        Ok(&self.targets)
+        senses: &WalkerSenses<'_>,
+    ) -> Result<&JointTargets, WalkError>;
+
+    /// Whether it stands still on both soles, as of the last step; before the first it does.
+    fn standing(&self) -> bool;
+
+    /// Landings so far.
+    fn steps_taken(&self) -> u64;
+
+    /// Where the head looks, as of the last step.
+    fn gaze(&self) -> Gaze;
+
+    /// Whether it takes listed footsteps. One that does not is never given any: the robot refuses where a behaviour lists them.
+    fn takes_footsteps(&self) -> bool {
+        false
     }
 
-    fn pass(&mut self, now_ns: u64) -> f64 {
-        let passed_s = match self.last_ns {
-            Some(last_ns) if now_ns > last_ns => (now_ns - last_ns) as f64 * 1e-9,
-            _ => TICK_S,
-        };
-        self.last_ns = Some(now_ns);
-        let tuning = &self.config.tuning.ticks;
-        passed_s.clamp(tuning.shortest * TICK_S, tuning.longest * TICK_S)
+    /// How the listed footsteps go.
+    fn stepping(&self) -> Stepping {
+        Stepping::default()
     }
 
-    fn sense(&mut self, observation: &Observation, state: &BodyState, passed_s: f64) {
-        let [left, right] = state.foot_loads_n.map(|load| load.max(0.0));
-        let least_n = self.config.tuning.ticks.least_load;
-        let trust = match self.support() {
-            Some(Side::Left) => [1.0, 0.0],
-            Some(Side::Right) => [0.0, 1.0],
-            None if left + right > least_n => [left / (left + right), right / (left + right)],
-            None => [0.5, 0.5],
-        };
-        let sensed = Sensed {
-            attitude: &state.odometry_from_torso_rotation,
-            torso_from_sole: Side::BOTH.map(|side| self.body.torso_from_sole(&state.links, side)),
-            com_in_torso: self.body.center_of_mass_in_torso(&state.links).coords,
-            foot_forces_n: &observation.foot_forces_n,
-            feet: &self.gait.feet,
-            trust,
-            weight_n: self.weight_n,
-            passed_s,
-        };
-        self.balance.update(&sensed, &self.pressure.zmp);
-        self.ankles.update(
-            &self.gait.phase,
-            &self.gait.feet,
-            &self.pressure,
-            &observation.foot_forces_n,
-            passed_s,
-        );
+    /// What a foot of a walk met at the last step, in the robot's frame.
+    fn met(&self) -> Option<Met> {
+        None
     }
 
-    /// What the feet feel.
-    fn feel(&self, observation: &Observation, state: &BodyState) -> Felt {
-        let plan_from_sole = Side::BOTH.map(|side| {
-            self.balance.plan_from_torso * self.body.torso_from_sole(&state.links, side)
-        });
-        let pressed_m =
-            Side::BOTH.map(|side| self.soles.pressed_m(side, &observation.foot_forces_n));
-        let touched_m = [0, 1].map(|foot: usize| {
-            let [x_m, y_m] = pressed_m[foot].into();
-            (plan_from_sole[foot] * nalgebra::Point3::new(x_m, y_m, 0.0)).coords
-        });
-        Felt {
-            loads_n: state.foot_loads_n,
-            soles_m: plan_from_sole.map(|pose| pose.translation.vector),
-            short_m: self.posture.short_m(),
-            pressed_m,
-            touched_m,
-        }
+    /// Whether each foot stands, or is to land, on a slope.
+    fn on_slope(&self) -> [bool; 2] {
+        [false; 2]
     }
 
-    /// The robot's frame in the plan: midway between the soles as they are.
-    fn frame(&self, felt: &Felt) -> ListFrame {
-        let mut planar = Gait::center_of(&self.gait.feet);
-        let middle = 0.5 * (felt.soles_m[0] + felt.soles_m[1]);
-        (planar.x_m, planar.y_m) = (middle.x, middle.y);
-        ListFrame {
-            planar,
-            ground_m: self.gait.ground_m(),
-        }
-    }
-
-    /// DCM feedback: p = p_ref + k (xi - xi_ref), within the soles that stand.
-    fn pressed(&self) -> Pressure {
-        let error = self.balance.dcm() - self.reference.dcm;
-        let wanted = self.reference.zmp + error * self.config.dcm_gain;
-        let (gait, soles) = (&self.gait, &self.soles);
-        if let Some(stance) = self.support() {
-            soles.on_one(&gait.feet, stance, &wanted)
-        } else {
-            let carry = Side::BOTH.map(|side| gait.support_point(&gait.feet, side));
-            soles.on_both(&gait.feet, &carry, &wanted)
-        }
+    /// Whether each foot stands, or is to land, on a slope or where a foot met something: such a sole turns under the robot.
+    fn on_uneven(&self) -> [bool; 2] {
+        self.on_slope()
     }
 }
-
-#[cfg(test)]
-#[path = "walker_tests.rs"]
-mod tests;
-
-#[cfg(test)]
-#[path = "climbing_tests.rs"]
-mod climbing_tests;
-
-#[cfg(test)]
-#[path = "slope_tests.rs"]
-mod slope_tests;
-
-#[cfg(test)]
-#[path = "list_tests.rs"]
-mod list_tests;
-
-#[cfg(test)]
-#[path = "mixed_list_tests.rs"]
-mod mixed_list_tests;

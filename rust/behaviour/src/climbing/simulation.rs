@@ -232,6 +232,7 @@ impl Simulation {
                 estimate: &estimate,
                 view: &self.view,
                 stairs: &self.staircase,
+                takes_footsteps: true,
                 stepping: self.stepping,
                 plan: self.plan.as_ref(),
                 goal: &self.goal,

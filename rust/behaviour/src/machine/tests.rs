@@ -68,6 +68,7 @@ impl World {
             last_goal: true,
             soles: crate::walking::simulation::SOLES,
             standing: true,
+            takes_footsteps: true,
             stepping: Stepping::default(),
             gaze: Gaze::default(),
             frames_used: if sees { tick } else { 0 },

@@ -166,6 +166,7 @@ impl Simulation {
                 estimate: &estimate,
                 view: &self.view,
                 stairs: &Staircase::default(),
+                takes_footsteps: true,
                 stepping: crate::Stepping {
                     stumbled: self.stumbled,
                     ..crate::Stepping::default()

@@ -310,6 +310,7 @@ fn decide(
             estimate: &estimate,
             view: &simulation.view,
             stairs: &stairs::Staircase::default(),
+            takes_footsteps: true,
             stepping: crate::Stepping::default(),
             plan: plan.as_ref(),
             goal: &goal,

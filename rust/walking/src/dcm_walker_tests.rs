@@ -7,6 +7,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::test_biped::{Ideal, biped, config, description};
+use crate::walker::Walker;
 
 fn walk(x_mps: f64, y_mps: f64, yaw_radps: f64) -> Command {
     Command {
@@ -236,12 +237,12 @@ fn a_bad_setting_is_refused_by_its_key() {
     ] {
         let mut bad = description();
         bad.gait = serde_json::json!({ key: value });
-        let error = Walker::new(&Body::new(bad).unwrap()).unwrap_err();
+        let error = DcmWalker::new(&Body::new(bad).unwrap()).unwrap_err();
         assert_eq!(error.to_string(), message);
     }
     let mut unknown = description();
     unknown.gait = serde_json::json!({ "step_tim": 0.5 });
-    let error = Walker::new(&Body::new(unknown).unwrap()).unwrap_err();
+    let error = DcmWalker::new(&Body::new(unknown).unwrap()).unwrap_err();
     assert!(error.to_string().contains("step_tim"), "{error}");
 }
 
