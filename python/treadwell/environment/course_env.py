@@ -1,6 +1,7 @@
 """A scenario as a Gymnasium environment: the agent takes the place of the behaviour."""
 
 import math
+from collections.abc import Mapping
 from copy import deepcopy
 from itertools import pairwise
 from pathlib import Path
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from treadwell.environment.actions import Actions, FootstepActions, VelocityActions
 from treadwell.environment.commanded import Commanded, NoPlanner
+from treadwell.environment.height_scan import HeightScan
 from treadwell.environment.observations import Observed, observation_space, observed
 from treadwell.environment.top_view import TopView
 from treadwell.episode import Episode, Step
@@ -54,6 +56,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         *,
         actions: Literal["velocity", "footsteps"] = "velocity",
         overrides: Overrides = (),
+        height_scan: Mapping[str, float] | bool = False,
         render_mode: str | None = None,
         user_code: bool = True,
     ) -> None:
@@ -64,6 +67,8 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
             robot: its name or folder, instead of the scenario's.
             actions: what the agent does.
             overrides: settings `KEY=VALUE`, as `--set` takes them, or a mapping of keys to values.
+            height_scan: whether observations have the heights around the robot as it believes them;
+                or `length`, `width`, `spacing` and `ahead` of their grid, m.
             render_mode: None, or `rgb_array`: the course from above.
             user_code: False: a scenario that names a Python class is refused.
 
@@ -78,6 +83,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         self._asked: dict[str, Any] = {"robot": robot, "overrides": deepcopy(overrides)}
         self._scenario = scenario
         self._kind = actions
+        self._scan = HeightScan.read(height_scan)
         self._user_code = user_code
         self._episode: Episode | None = None
         self._view: TopView | None = None
@@ -85,7 +91,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         self._done: list[Any] | None = None
         self._begin(load_scenario(scenario, **self._asked).seed)
         assert self._episode is not None
-        self.observation_space = observation_space(self._episode.robot)
+        self.observation_space = observation_space(self._episode.robot, self._scan)
         self.action_space = self._actions.space
 
     def reset(
@@ -106,7 +112,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         self._begin(int((options or {}).get("scenario_seed", drawn)))
         assert self._episode is not None
         name = self._episode.scenario.name
-        if observation_space(self._episode.robot) != self.observation_space:
+        if observation_space(self._episode.robot, self._scan) != self.observation_space:
             self.close()
             raise InputError(f"{name}: [vary] draws a robot whose observations have another form")
         self._look()
@@ -256,7 +262,11 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         assert self._episode is not None
         assert self._step is not None
         assert self._depth is not None
-        return observed(self._step, self._depth, self._episode.goal, self._episode.pilot.gaze)
+        pilot = self._episode.pilot
+        seen = observed(self._step, self._depth, self._episode.goal, pilot.gaze)
+        if self._scan is not None:
+            seen |= self._scan.observed(pilot.view(), self._step.estimate.pose)
+        return seen
 
     def _info(self) -> dict[str, Any]:
         assert self._step is not None

@@ -7,6 +7,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell.environment.height_scan import HeightScan
 from treadwell.episode import Step
 from treadwell.robot.load import Robot
 
@@ -27,7 +28,7 @@ MOST: Final = {
 Observed = dict[str, NDArray[Any]]
 
 
-def observation_space(robot: Robot) -> gymnasium.spaces.Dict:
+def observation_space(robot: Robot, scan: HeightScan | None = None) -> gymnasium.spaces.Dict:
     """Return the space: see `docs/how_to/gymnasium.md` for what each entry is."""
     camera, joints = robot.file.camera, len(robot.joints)
     shapes = {
@@ -46,6 +47,8 @@ def observation_space(robot: Robot) -> gymnasium.spaces.Dict:
     }
     size = (camera.height, camera.width)
     boxes["depth"] = gymnasium.spaces.Box(0.0, FARTHEST_M, size, np.float32)
+    if scan is not None:
+        boxes |= scan.spaces()
     return gymnasium.spaces.Dict(boxes)
 
 
