@@ -205,6 +205,19 @@ def test_a_run_by_a_walker_of_ones_own_is_kept_as_any_other(tmp_path: Path) -> N
         treadwell.replay(out, out=tmp_path / "without")
 
 
+def test_steps_that_a_walker_does_not_count_are_counted_by_the_feet(tmp_path: Path) -> None:
+    """The loads of a walk by the core's own walker, given to one that says nothing of its gait."""
+    overrides, out = ("time_limit=6", "start.yaw=0.0"), tmp_path / "walked"
+
+    def stroll() -> Told:
+        return Told(s0=Decision("stand"), s1=Decision("walk", velocity=(0.08, 0.0, 0.1)))
+
+    walked = treadwell.run("open_floor", seed=2, overrides=overrides, behaviour=stroll(), out=out)
+    felt = treadwell.replay(out, walker=Statue(), behaviour=stroll(), out=tmp_path / "felt")
+    assert walked.result.steps_taken > 5
+    assert abs(felt.result.steps_taken - walked.result.steps_taken) <= 1  # one may be in the air
+
+
 def test_the_walkers_parameters_are_the_robots() -> None:
     with pytest.raises(InputError, match=r"navigation\.dcm: unknown key"):
         treadwell.Episode("open_floor", overrides=("navigation.dcm.step_time=1.0",))

@@ -251,7 +251,7 @@ class Walker(Protocol):
     It may have three more methods, without arguments, each called after every `step`:
 
     - `standing() -> bool`: whether the robot stands still on both soles. Without it, it stands once
-      it was told to and both feet have borne for as long as a step takes (`gait.step_time`).
+      it was told to and no foot was lifted for as long as a step takes (`gait.step_time`).
     - `steps_taken() -> int`: landings so far. Without it they are counted by the feet's loads.
     - `stepping() -> Stepping`, of `treadwell._core`: how the listed footsteps go. Only a walker
       that has it is given footsteps; with any other, `Situation.takes_footsteps` is False, and

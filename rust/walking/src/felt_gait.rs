@@ -7,19 +7,22 @@ use crate::config::GaitConfig;
 use crate::error::WalkError;
 
 /// What a foot did last.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Foot {
     /// It has carried nothing yet.
     New,
     Bears,
-    Lifted,
+    /// It has carried nothing for so long, s.
+    Off(f64),
 }
 
-/// Watches the loads of the feet. A foot bears from the load on that counts as a landing (`gait.landing_load`); the robot stands once
-/// it was told to and both have borne for as long as a step takes (`gait.step_time`).
+/// Watches the loads of the feet. A foot bears from the load on that counts as a landing (`gait.landing_load`); it was lifted where it
+/// bore nothing for as long as both feet carry in a step (`gait.double_support`), else it bounced. The robot stands once it was told to
+/// and no foot was lifted for as long as a step takes (`gait.step_time`).
 #[derive(Debug, Clone)]
 pub struct FeltGait {
     landing_load_n: f64,
+    bounce_s: f64,
     settle_s: f64,
     feet: [Foot; 2],
     rested_s: f64,
@@ -36,6 +39,7 @@ impl FeltGait {
         let (gait, _) = GaitConfig::read(body)?;
         Ok(Self {
             landing_load_n: gait.landing_load,
+            bounce_s: gait.double_support,
             settle_s: gait.step_time,
             feet: [Foot::New; 2],
             rested_s: gait.step_time,
@@ -50,19 +54,22 @@ impl FeltGait {
 
     /// Takes in the loads that the feet had, what they were told, and the time that has passed.
     pub fn feel(&mut self, foot_loads_n: [f64; 2], told: &Motion, passed_s: f64) {
-        let contacts = self.contacts(foot_loads_n);
-        for (foot, bears) in self.feet.iter_mut().zip(contacts) {
-            let landed = bears && *foot == Foot::Lifted;
+        for (foot, bears) in [0, 1].into_iter().zip(self.contacts(foot_loads_n)) {
+            let landed = bears && self.is_lifted(foot);
             self.steps_taken += u64::from(landed);
-            *foot = match (bears, *foot) {
+            self.feet[foot] = match (bears, self.feet[foot]) {
                 (true, _) => Foot::Bears,
                 (false, Foot::New) => Foot::New,
-                (false, Foot::Bears | Foot::Lifted) => Foot::Lifted,
+                (false, Foot::Bears) => Foot::Off(passed_s),
+                (false, Foot::Off(since_s)) => Foot::Off(since_s + passed_s),
             };
         }
-        let new = self.feet == [Foot::New; 2];
-        let rests = *told == Motion::Stand && (new || contacts == [true; 2]);
+        let rests = *told == Motion::Stand && ![0, 1].iter().any(|&foot| self.is_lifted(foot));
         self.rested_s = if rests { self.rested_s + passed_s } else { 0.0 };
+    }
+
+    fn is_lifted(&self, foot: usize) -> bool {
+        matches!(self.feet[foot], Foot::Off(since_s) if since_s > self.bounce_s)
     }
 
     /// Whether the robot stands still on both soles.
@@ -107,25 +114,29 @@ mod tests {
             })
             .count();
         assert!((waited as f64 * TICK_S - felt.settle_s).abs() < 2.0 * TICK_S);
-        // A foot that lifts ends it.
-        felt.feel([60.0, 0.0], &Motion::Stand, TICK_S);
+        // A foot that sways off the ground does not end it, one that lifts does.
+        felt.feel([60.0, 0.0], &Motion::Stand, 0.5 * felt.bounce_s);
+        assert!(felt.standing());
+        felt.feel([60.0, 0.0], &Motion::Stand, felt.bounce_s);
         assert!(!felt.standing());
     }
 
     #[test]
-    fn every_landing_counts_once_and_the_first_touch_is_none() {
+    fn every_landing_counts_once_and_neither_the_first_touch_nor_a_bounce() {
         let mut felt = FeltGait::new(&biped()).unwrap();
-        let mut pass = |loads_n| {
-            felt.feel(loads_n, &WALK, TICK_S);
+        let step_s = felt.settle_s;
+        let mut pass = |loads_n, passed_s| {
+            felt.feel(loads_n, &WALK, passed_s);
             felt.steps_taken()
         };
-        assert_eq!(pass([0.0; 2]), 0);
-        assert_eq!(pass(ON_BOTH), 0);
-        assert_eq!(pass([60.0, 0.0]), 0);
-        assert_eq!(pass([60.0, 1.0]), 0);
-        assert_eq!(pass(ON_BOTH), 1);
-        assert_eq!(pass(ON_BOTH), 1);
-        assert_eq!(pass([0.0, 60.0]), 1);
-        assert_eq!(pass(ON_BOTH), 2);
+        assert_eq!(pass([0.0; 2], step_s), 0);
+        assert_eq!(pass(ON_BOTH, TICK_S), 0);
+        assert_eq!(pass([60.0, 0.0], step_s), 0);
+        assert_eq!(pass([60.0, 1.0], step_s), 0);
+        assert_eq!(pass(ON_BOTH, TICK_S), 1);
+        assert_eq!(pass([60.0, 0.0], TICK_S), 1);
+        assert_eq!(pass(ON_BOTH, TICK_S), 1);
+        assert_eq!(pass([0.0, 60.0], step_s), 1);
+        assert_eq!(pass(ON_BOTH, TICK_S), 2);
     }
 }
