@@ -1,3 +1,4 @@
+//! The way: A* over cells and over the climbs that join levels, the path that is followed, and reasons to refuse.
 #![doc = include_str!("../README.md")]
 
 mod a_star;

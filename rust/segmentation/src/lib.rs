@@ -1,3 +1,4 @@
+//! Planes in a scan: several ways to find them, the ground plane, labelled points.
 #![doc = include_str!("../README.md")]
 
 #[cfg(test)]

@@ -1,3 +1,4 @@
+//! Stairs (003): extracted, merged while the robot stands, remembered while it steps, and where feet fit on them.
 #![doc = include_str!("../README.md")]
 
 mod climbing;

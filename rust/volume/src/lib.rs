@@ -1,3 +1,4 @@
+//! Volumes: the voxel occupancy grid, its sensor model and its rays.
 #![doc = include_str!("../README.md")]
 
 mod bins;
