@@ -13,7 +13,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What the built package is made of: `make setup` builds anew when it changes.
 SOURCES := $(shell find rust models scenarios -type f)
 
-.PHONY: setup demo test test-core test-package test-long fast fuzz check lint lint-package clippy deny advisories format bench clean
+.PHONY: setup demo test test-core test-package test-long fast docs docs-test fuzz check lint lint-package clippy deny advisories format bench clean
 
 setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/treadwell
 
@@ -40,7 +40,7 @@ test-core: clippy deny
 	MAKEFLAGS= cargo test --release $(CORE) --doc --quiet # it looks for make's jobs, and warns
 
 test-package: lint-package
-	$(PYTEST) --hypothesis-profile ci -m "not long"
+	$(PYTEST) --hypothesis-profile ci -m "not long and not docs"
 
 test-long: export PROPTEST_RNG_SEED ?= 2004
 test-long: setup ## what `make test` leaves out: further seeds, walks and builds of minutes, every bench
@@ -50,7 +50,16 @@ test-long: setup ## what `make test` leaves out: further seeds, walks and builds
 fast: export PROPTEST_RNG_SEED ?= 2004
 fast: setup ## the quick tests: two and a half minutes on two cores
 	$(CARGO_FAST)
-	$(PYTEST) --hypothesis-profile ci -m "not scenario and not slow and not long"
+	$(PYTEST) --hypothesis-profile ci -m "not scenario and not slow and not long and not docs"
+
+# The site's builder lives in an environment of its own: neither `make setup` nor a user needs it.
+DOCS := $(UV) run --locked --quiet --isolated --only-group docs python tools/docs/site_of_pages.py
+docs: $(UV) ## the documentation as a site, build/site/index.html; RUST=1: with the pages of the crates, which take minutes
+	$(if $(RUST),cargo doc --no-deps --workspace --quiet)
+	$(DOCS) $(if $(RUST),--rust $(or $(CARGO_TARGET_DIR),target)/doc)
+
+docs-test: setup docs ## the site's links, and every command of the tutorial, the long ones too
+	$(PYTEST) --hypothesis-profile ci -m docs
 
 # In `make test` crates are built once, as the package is: tests of the core run on what walks.
 NEXTEST := $(shell cargo nextest --version 2>/dev/null)
@@ -99,4 +108,4 @@ format: setup
 check: test
 
 clean:
-	rm -rf target .venv .uv dist
+	rm -rf target .venv .uv dist build
