@@ -1,7 +1,9 @@
-"""What the how-to pages show is run, page by page: their files are written, their commands typed.
+"""What how-to pages and tutorial show is run, page by page: files are written, commands typed.
 
 A block whose first line is `# file: NAME` is a file. A line `$ command` of a console block is
-typed into bash in a new folder; it must succeed, unless it ends with `# exits N`.
+typed into bash in a new folder; it must succeed, unless it ends with `# exits N`. Lines below it
+are what it prints, with any numbers; `...` stands for anything. A command that ends with
+`# takes ...` is left to `make docs-test`, and so is what needs its `--out`.
 """
 
 import os
@@ -15,8 +17,11 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = sorted((ROOT / "docs" / "how_to").glob("*.md"))
+TUTORIAL = sorted((ROOT / "docs" / "tutorial").glob("[0-9]*.md"))
 MOST_LINES = 120
 """Two screens."""
+MOST_LINES_OF_TUTORIAL = 150
+"""Programs stand there whole, with what they print."""
 STATUS = "__status__"
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
 
@@ -48,9 +53,54 @@ def commands(text: str) -> list[tuple[str, int]]:
     return found
 
 
+def quick(typed: list[tuple[str, int]]) -> list[tuple[str, int]]:
+    """The commands that take no time, and need nothing that others leave."""
+    found, left_out = [], set()
+    for command, status in typed:
+        words = command.partition("  #")[0].split()
+        if re.search(r"#.*\btakes\b", command) or left_out & {word.split("/")[0] for word in words}:
+            if "--out" in words:
+                left_out.add(words[words.index("--out") + 1].split("/")[0])
+        else:
+            found.append((command, status))
+    return found
+
+
+def shown(text: str) -> list[tuple[str, list[str]]]:
+    """The commands, and the lines that a page shows below each."""
+    found: list[tuple[str, list[str]]] = []
+    for language, lines in blocks(text):
+        for line in lines if language == "console" else []:
+            if line.startswith("$ "):
+                found.append((line[2:], []))
+            elif found:
+                found[-1][1].append(line)
+    return found
+
+
+def not_printed(lines: list[str], printed: str) -> list[str]:
+    """The lines of a page that a command did not print, in their order; numbers may differ."""
+    said = [plain(line) for line in printed.splitlines()]
+    missing = []
+    for line in lines:
+        parts = [re.escape(plain(part)) for part in line.split("...")]
+        wanted = re.compile(r".*".join(parts))
+        at = next((i for i, one in enumerate(said) if wanted.fullmatch(one)), None)
+        if at is None:
+            missing.append(line)
+        elif line.strip() != "...":
+            said = said[at + 1 :]
+    return missing
+
+
+def plain(line: str) -> str:
+    """A line without its numbers, and with single spaces."""
+    return re.sub(r"\d+(?:\.\d+)?", "0", " ".join(line.split()))
+
+
 def script(typed: list[tuple[str, int]]) -> str:
     """One shell for all: what a command exports, or where it goes, holds for the next."""
-    lines = [f"{command}\necho {STATUS} $? >&3" for command, _ in typed]
+    lines = [f"{command}\necho {STATUS} $? >&3; echo {STATUS}" for command, _ in typed]
     return "\n".join(lines) + "\n"
 
 
@@ -61,14 +111,14 @@ def environment() -> dict[str, str]:
     return {**inherited, "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}", "COLUMNS": "200"}
 
 
-def run(text: str, folder: Path) -> list[tuple[str, int, int]]:
+def run(text: str, folder: Path, *, long: bool = True) -> list[tuple[str, int, int]]:
     """Command, expected and found status of each; -1 for one that was not reached."""
     for name, content in files(text).items():
         path = folder / name
         assert path.resolve().is_relative_to(folder.resolve()), name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(content)
-    typed, said = commands(text), folder / ".said"
+    typed, said = commands(text) if long else quick(commands(text)), folder / ".said"
     log, statuses = folder / ".log", folder / ".statuses"
     said.write_text(script(typed))
     subprocess.run(
@@ -95,10 +145,35 @@ def test_the_commands_of_a_page_do_what_it_says(page: Path, tmp_path: Path) -> N
     assert not wrong, f"{wrong}\n{(tmp_path / '.log').read_text()[-3000:]}"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def check_tutorial(page: Path, folder: Path, *, long: bool) -> None:
+    """Fail where a command ends otherwise than a page says, or prints other words."""
+    text = page.read_text()
+    found = run(text, folder, long=long)
+    log = (folder / ".log").read_text()
+    assert not [one for one in found if one[1] != one[2]], f"{found}\n{log[-3000:]}"
+    printed = dict(zip([one[0] for one in found], log.split(f"{STATUS}\n"), strict=False))
+    for command, lines in shown(text):
+        if command in printed:
+            missing = not_printed(lines, printed[command])
+            assert not missing, f"{page.name}: {command}: {missing} not in\n{printed[command]}"
+
+
+@pytest.mark.parametrize("page", TUTORIAL, ids=lambda page: page.stem)
+def test_the_quick_commands_of_the_tutorial_print_what_it_says(page: Path, tmp_path: Path) -> None:
+    check_tutorial(page, tmp_path, long=False)
+
+
+@pytest.mark.docs
+@pytest.mark.parametrize("page", TUTORIAL, ids=lambda page: page.stem)
+def test_all_commands_of_the_tutorial_print_what_it_says(page: Path, tmp_path: Path) -> None:
+    check_tutorial(page, tmp_path, long=True)
+
+
+@pytest.mark.parametrize("page", [*PAGES, *TUTORIAL], ids=lambda page: page.stem)
 def test_a_page_is_short_and_has_commands_and_links_that_lead_somewhere(page: Path) -> None:
     text = page.read_text()
-    assert len(text.splitlines()) <= MOST_LINES
+    most = MOST_LINES_OF_TUTORIAL if page in TUTORIAL else MOST_LINES
+    assert len(text.splitlines()) <= most
     assert commands(text)
     links = re.findall(r"\]\(([^)#]+)[^)]*\)", text)
     assert not [link for link in links if "://" not in link and not (page.parent / link).exists()]
@@ -106,6 +181,20 @@ def test_a_page_is_short_and_has_commands_and_links_that_lead_somewhere(page: Pa
 
 def test_there_are_pages() -> None:
     assert {"own_planner", "own_part", "own_part_in_rust", "gymnasium"} <= {p.stem for p in PAGES}
+    assert [page.stem[0] for page in TUTORIAL] == list("123456")
+
+
+def test_what_takes_long_and_what_needs_it_are_no_quick_commands() -> None:
+    typed = ["a --out x  # takes a minute", "b x", "c", "d x/y --out z", "e z", "f --out w", "g w"]
+    assert [one for one, _ in quick([(one, 0) for one in typed])] == ["c", "f --out w", "g w"]
+
+
+def test_a_line_that_is_not_printed_is_found() -> None:
+    printed = "outcome   goal_reached\n  time 3.2 s\n"
+    assert not_printed(["...", "  outcome goal_reached", "time 14 s"], printed) == []
+    assert not_printed(["out... goal_reached", "...", "time 1 s"], printed) == []
+    assert not_printed(["outcome fell"], printed) == ["outcome fell"]
+    assert not_printed(["time 1 s", "outcome goal_reached"], printed) == ["outcome goal_reached"]
 
 
 def test_a_command_that_fails_is_found_and_one_that_may_is_not(tmp_path: Path) -> None:
