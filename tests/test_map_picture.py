@@ -104,6 +104,32 @@ def test_soles_are_drawn_where_they_were_planned_and_where_they_came_down(tmp_pa
     assert has(pixels(tmp_path / "map.png"), to_rgb("#ff8c00")) > 20
 
 
+def test_no_line_joins_places_between_which_the_robot_cannot_have_walked(tmp_path: Path) -> None:
+    made, found = world(), Trajectory()
+    for i in range(40):  # it believes to walk along y = 0.5, and finds itself at y = -0.5
+        place = (0.02 * i, 0.5) if i < 20 else (0.02 * (i - 20), -0.5)
+        found.add(80_000_000 * i, pose_matrix(*place, 0.0, 0.0))
+
+    def pink(stride: float) -> np.ndarray:
+        draw_map(
+            tmp_path / "map.png",
+            made.course,
+            caption_of(result(made.scenario)),
+            grid(),
+            found,
+            found,
+            StairMemory(),
+            (StepMemory(), (stride, 0.075)),
+        )
+        picture = pixels(tmp_path / "map.png")
+        rows = np.nonzero(np.abs(picture - np.array(to_rgb("#ff5fa2"))).max(axis=-1) < 0.03)[0]
+        return np.unique(rows[rows < 0.8 * picture.shape[0]])  # not the legend's
+
+    joined, broken = pink(10.0), pink(0.1)
+    assert np.diff(joined).max() < 5
+    assert np.diff(broken).max() > 100
+
+
 @pytest.mark.parametrize("outcome", ["error", "interrupted"])
 def test_an_episode_that_ended_at_once_has_a_picture(tmp_path: Path, outcome: str) -> None:
     made = world()

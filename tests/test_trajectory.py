@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from treadwell.errors import InputError
 from treadwell.poses import pose_matrix
-from treadwell.recording.trajectory import Trajectory, quaternion, read_trajectory
+from treadwell.recording.trajectory import Trajectory, jumps, quaternion, read_trajectory
 
 
 def test_a_line_is_time_position_and_quaternion(tmp_path: Path) -> None:
@@ -81,3 +81,13 @@ def test_a_quaternion_turns_as_its_matrix_does(numbers: list[float]) -> None:
     assert w >= 0.0
     mujoco.mju_quat2Mat(back, np.array([w, x, y, z]))
     assert back == pytest.approx(matrix, abs=1e-9)
+
+
+def test_a_jump_is_farther_than_the_robot_comes_in_the_time_of_a_frame() -> None:
+    rows = np.zeros((7, 8))
+    rows[:, 0] = [0.0, 0.08, 0.16, 0.24, 0.56, 0.64, 0.72]  # three frames are missing
+    rows[:, 1] = [0.0, 0.05, 0.10, 1.0, 1.35, 1.40, 1.45]
+    assert jumps(rows, 0.1).tolist() == [3]
+    assert jumps(rows, 0.05 / 2).tolist() == [1, 2, 3, 4, 5, 6]
+    assert jumps(rows, np.inf).tolist() == []
+    assert jumps(rows[:1], 0.1).tolist() == []

@@ -1,5 +1,6 @@
 """`map.png`: the remembered map from above, with the true course and the ways over it."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,7 +24,7 @@ from treadwell.recording.sole_outlines import draw_soles
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.stair_outlines import draw_stairs
 from treadwell.recording.step_memory import StepMemory
-from treadwell.recording.trajectory import Trajectory
+from treadwell.recording.trajectory import Trajectory, jumps
 
 _UNKNOWN: Final = (0.80, 0.80, 0.82)
 _OBSTACLE: Final = (0.09, 0.09, 0.11)
@@ -74,6 +75,9 @@ def draw_map(
 ) -> None:
     """Draw the picture, whole or not at all.
 
+    A way has a gap where the robot found itself elsewhere, or was carried off: it walked no line
+    from the one place to the other.
+
     Args:
         path: of the PNG file.
         course: what truly stands where, and start and goal.
@@ -82,7 +86,8 @@ def draw_map(
         estimate: the believed way.
         truth: the true one.
         stairs: what was known of stairs, and when the robot climbed.
-        footsteps: where soles were planned and put, and the length and width of a sole, m.
+        footsteps: where soles were planned and put, and the length and width of a sole, m: a
+            walked step is shorter, and no two fall between two frames. None: ways have no gaps.
 
     Raises:
         OSError: the file cannot be written.
@@ -99,7 +104,8 @@ def draw_map(
     colours = draw_cells(axes, remembered, height_span(remembered))
     _draw_course(axes, course)
     draw_stairs(axes, stairs.stairs)
-    _draw_ways(axes, estimate, truth, np.array(stairs.climbing, dtype=bool))
+    stride = math.inf if footsteps is None else footsteps[1][0]
+    _draw_ways(axes, (estimate, truth), np.array(stairs.climbing, dtype=bool), stride)
     if footsteps is not None:
         draw_soles(axes, *footsteps)
     _draw_ends(axes, course, caption)
@@ -210,27 +216,33 @@ def _draw_course(axes: Axes, course: Course) -> None:
 
 
 def _draw_ways(
-    axes: Axes, estimate: Trajectory, truth: Trajectory, climbing: NDArray[np.bool_]
+    axes: Axes, ways: tuple[Trajectory, Trajectory], climbing: NDArray[np.bool_], stride: float
 ) -> None:
-    true, believed = truth.positions(), estimate.positions()
-    axes.plot(
-        true[:, 0],
-        true[:, 1],
-        color="black",
-        linewidth=3.4,
-        alpha=0.35,
-        solid_capstyle="round",
-        zorder=4,
-    )
-    axes.plot(true[:, 0], true[:, 1], color=_TRUE, linewidth=2.0, zorder=5, label="true way")
-    axes.plot(
-        believed[:, 0], believed[:, 1], color=_BELIEVED, linewidth=1.4, zorder=6, label="believed"
-    )
+    """Draw the believed way and the true one, and where the robot climbed on the first."""
+    estimate, truth = ways
+    true, believed = _with_gaps(truth, stride), _with_gaps(estimate, stride)
+    back: dict[str, Any] = {
+        "color": "black",
+        "linewidth": 3.4,
+        "alpha": 0.35,
+        "solid_capstyle": "round",
+    }
+    axes.plot(*true, **back, zorder=4)
+    axes.plot(*true, color=_TRUE, linewidth=2.0, zorder=5, label="true way")
+    axes.plot(*believed, color=_BELIEVED, linewidth=1.4, zorder=6, label="believed")
     if climbing.any():
-        climbed = np.where(climbing[:, None], believed[:, :2], np.nan)
-        axes.plot(
-            climbed[:, 0], climbed[:, 1], color=_CLIMBED, linewidth=2.0, zorder=6.5, label="climbed"
-        )
+        climbed = _with_gaps(estimate, stride, hidden=~climbing)
+        axes.plot(*climbed, color=_CLIMBED, linewidth=2.0, zorder=6.5, label="climbed")
+
+
+def _with_gaps(
+    way: Trajectory, stride: float, hidden: NDArray[np.bool_] | None = None
+) -> NDArray[np.float64]:
+    """Return x and y of a way, (2, n) m, with NaN between rows that no walk joins."""
+    places = way.positions()[:, :2]
+    if hidden is not None:
+        places = np.where(hidden[:, None], np.nan, places)
+    return np.insert(places, jumps(way.rows, stride), np.nan, axis=0).T
 
 
 def _draw_ends(axes: Axes, course: Course, caption: Caption) -> None:

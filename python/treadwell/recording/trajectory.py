@@ -91,6 +91,21 @@ def read_trajectory(path: Path) -> NDArray[np.float64]:
     return np.array(rows, dtype=np.float64).reshape(-1, 8)
 
 
+def jumps(rows: NDArray[np.float64], stride: float) -> NDArray[np.intp]:
+    """Return the indices of rows (n, 8) that lie farther from the one before than a robot walks.
+
+    Args:
+        rows: of a trajectory, one a camera frame.
+        stride: m, farther than the robot comes in the time of a frame; where frames are missing,
+            as many of it.
+    """
+    if len(rows) < 2:
+        return np.empty(0, np.intp)
+    times, ways = np.diff(rows[:, 0]), np.linalg.norm(np.diff(rows[:, 1:4], axis=0), axis=1)
+    frames = np.maximum(times / np.median(times), 1.0)
+    return np.flatnonzero(ways > stride * frames) + 1
+
+
 def headings(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the headings (n,) rad of trajectory rows (n, 8)."""
     x, y, z, w = rows[:, 4:8].T

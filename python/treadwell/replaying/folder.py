@@ -49,10 +49,15 @@ def _draw(path: Path, scenario: Scenario, result: ReplayResult, found: Findings)
     # Late: a replay needs no MuJoCo, which builds the course.
     from treadwell.course.build import build_course
     from treadwell.recording.map_picture import Caption, draw_map
+    from treadwell.recording.step_memory import StepMemory
     from treadwell.robot.load import load_robot
 
-    course = build_course(scenario, load_robot(scenario.robot))
+    robot = load_robot(scenario.robot)
+    course = build_course(scenario, robot)
     title = f"{result.scenario} · {result.robot} · seed {result.seed}"
     title += f"\nreplay of {result.simulated_seconds:.1f} s"
     caption = Caption(title, result.configuration["goal"])
-    draw_map(path, course, caption, found.memory.map(), found.estimate, found.truth, found.stairs)
+    sole = robot.file.legs.left.sole
+    soles = (StepMemory(), (sole.length, sole.width))
+    remembered = found.memory.map()
+    draw_map(path, course, caption, remembered, found.estimate, found.truth, found.stairs, soles)
