@@ -19,7 +19,7 @@ def test_what_the_map_has_of_elements_is_summed_over_runs() -> None:
     one = ElementCells("slope", 10, 6, 2, (0.001,) * 6, math.radians(1.0))
     other = ElementCells("slope", 10, 0, 10, (), None)
     rows = rows_of(fog_tables, {cases.SLOPE: watched((one,), (other,))}, "A slope of")
-    assert rows == {"slope": ("20", "30.0", "60.0", "1.0", "1.00")}
+    assert rows == {"slope": ("20", "30.0", "60.0", "1.0", "1.00", "no floor")}
 
 
 def test_ceilings_are_measured_and_decisions_counted() -> None:

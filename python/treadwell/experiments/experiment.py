@@ -17,6 +17,8 @@ Results = Mapping[str, Sequence[Run]]
 
 NOTHING = "-"
 """What a cell holds where nothing was measured or reported."""
+THE_PAPER = "the paper"
+"""The column with what the paper reports."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """The floor and obstacle height map of Gutmann, Fukuchi and Fujita (ICRA 2005, section V)."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Final
@@ -8,6 +8,7 @@ from typing import Final
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.experiment import (
     NOTHING,
+    THE_PAPER,
     Experiment,
     Picture,
     Results,
@@ -36,6 +37,7 @@ def _removed(results: Results) -> Table:
         results,
         cases.removed,
         _removal,
+        {cases.FOG: "none stale", "averaging": "some stale"},
         "Found: cells of the box that are floor at its height. Stale: cells that it has left and "
         "that are an obstacle to the map, or a floor that is no longer there. The paper: none, "
         "averaging keeps some. Wanted: none within 12 frames.",
@@ -74,6 +76,7 @@ def _moved(results: Results) -> Table:
         results,
         cases.moved,
         _motion,
+        {cases.FOG: "none between", "averaging": "some between"},
         "Of the cells that the box covers or has covered and that the map has as floor, those with "
         "a height more than 10 mm off both. The paper: averaging has some, its own map none. "
         "Wanted: under 1 %, averaging above 5 %.",
@@ -96,15 +99,16 @@ def _by_model(
     results: Results,
     name: Callable[[str], str],
     row: Callable[[Sequence[MapHistory]], tuple[str, ...]],
+    paper: Mapping[str, str],
     note: str,
 ) -> Table:
-    """Return a table with a row for each world model that was run."""
+    """Return a table with a row for each world model that was run, and what the paper has."""
     histories = {
         model: [run.findings for run in results.get(name(model), ())]
         for model in cases.WORLD_MODELS
     }
-    rows = tuple((model, *row(some)) for model, some in histories.items() if some)
-    return Table(title, ("world model", *header), rows, (note,))
+    rows = tuple((model, *row(some), paper[model]) for model, some in histories.items() if some)
+    return Table(title, ("world model", *header, THE_PAPER), rows, (note,))
 
 
 def _segmenters(results: Results) -> Table:
@@ -120,7 +124,12 @@ def _segmenters(results: Results) -> Table:
         tuple(rows),
         (
             "Surfaces of 100 pixels or more at an overlap of 80 %, after Hoover et al. 1996; "
-            "merged: covered by a region that covers another one, too. The same frames for all.",
+            "merged: covered by a region that covers another one, too. The same frames for all. "
+            "scan_line, the default, finds few here since it joins levels that the noise of a "
+            "single frame does not keep apart: of treads of 30 mm, seen from half a metre, most; "
+            "by perfect depth it tells nine of ten apart. Climbing does not ask it of one frame: "
+            "edges are fitted to the disparities, and treads merged over frames, as the robot "
+            "comes near (experiment stairs). The paper shows one frame, without figures.",
         ),
     )
 

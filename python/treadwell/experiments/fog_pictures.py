@@ -2,22 +2,41 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
+from treadwell.course.build import build_course
 from treadwell.errors import RecordingError
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.experiment import Picture, Results
+from treadwell.judging.result import Result
 from treadwell.map_memory import UNKNOWN, RememberedMap
 from treadwell.measuring.map_watch import MapHistory
-from treadwell.recording.map_picture import draw_cells, height_colours, height_span
+from treadwell.recording.map_picture import (
+    draw_cells,
+    draw_outlines,
+    height_colours,
+    height_span,
+)
+from treadwell.robot.load import load_robot
+from treadwell.scenario.model import Scenario
 
-Panel = tuple[str, RememberedMap]
+Floats = NDArray[np.float64]
 Bounds = tuple[float, float, float, float]
 """West, east, south and north, m."""
+
+
+class Panel(NamedTuple):
+    """A map to draw: its title, what it says, and the true outlines of what stood there, m."""
+
+    title: str
+    remembered: RememberedMap
+    outlines: Sequence[Floats] = ()
+
 
 _IN_FRONT: Final = (0.0, 1.2, -0.6, 0.6)
 _AROUND: Final = (-0.4, 1.6, -1.0, 1.0)
@@ -55,8 +74,18 @@ def _course(results: Results) -> list[Panel]:
 def _remembered(results: Results, name: cases.Naming) -> list[Panel]:
     firsts = {model: results.get(name(model), ())[:1] for model in cases.WORLD_MODELS}
     return [
-        (model, run.remembered) for model, runs in firsts.items() for run in runs if run.remembered
+        Panel(model, run.remembered, true_outlines(run.result))
+        for model, runs in firsts.items()
+        for run in runs
+        if run.remembered
     ]
+
+
+def true_outlines(result: Result) -> list[Floats]:
+    """Return the outlines of what stood on the course from the beginning, (n, 2) m each."""
+    scenario = Scenario.model_validate(dict(result.configuration))
+    course = build_course(scenario, load_robot(scenario.robot))
+    return [piece.outline for e in course.elements if e.present for piece in e.pieces]
 
 
 def _removed(results: Results) -> list[Panel]:
@@ -65,13 +94,14 @@ def _removed(results: Results) -> list[Panel]:
         for run in results.get(cases.removed(model), ())[:1]:
             history: MapHistory = run.findings
             told = (f"{model}, the box there", f"{model}, removed")
-            panels += list(zip(told, history.pictures, strict=False))
+            shown = zip(told, history.pictures, history.outlines, strict=False)
+            panels += [Panel(*one) for one in shown]
     return panels
 
 
 def _moved(results: Results) -> list[Panel]:
     return [
-        (model, run.findings.pictures[-1])
+        Panel(model, run.findings.pictures[-1], run.findings.outlines[-1])
         for model in cases.WORLD_MODELS
         for run in results.get(cases.moved(model), ())[:1]
     ]
@@ -94,7 +124,7 @@ def draw_panels(path: Path, panels: Sequence[Panel], bounds: Bounds) -> None:
 
     Args:
         path: of the PNG file.
-        panels: title and map of each, one or more.
+        panels: one or more.
         bounds: what is shown.
 
     Raises:
@@ -110,10 +140,13 @@ def draw_panels(path: Path, panels: Sequence[Panel], bounds: Bounds) -> None:
     figure = Figure(figsize=size, dpi=150, layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.subplots(rows, cols, squeeze=False)
-    span = height_span(*(remembered for _, remembered in panels))
-    for place, (title, remembered) in zip(axes.flat, panels, strict=False):
-        draw_cells(place, remembered, span)
-        place.set_title(title, fontsize=9, loc="left")
+    span = height_span(*(panel.remembered for panel in panels))
+    for place, panel in zip(axes.flat, panels, strict=False):
+        draw_cells(place, panel.remembered, span)
+        draw_outlines(place, panel.outlines)
+        place.set_title(panel.title, fontsize=9, loc="left")
+        place.set_xlabel("x (m)", fontsize=8)
+        place.set_ylabel("y (m)", fontsize=8)
         place.set_xlim(west, east)
         place.set_ylim(south, north)
         place.set_facecolor("#ccccd1")
@@ -124,7 +157,7 @@ def draw_panels(path: Path, panels: Sequence[Panel], bounds: Bounds) -> None:
     for place in axes.flat[len(panels) :]:
         place.set_axis_off()
     bar = figure.colorbar(height_colours(span), ax=axes, shrink=0.8, aspect=30)
-    bar.set_label("floor height (mm); obstacles black, unknown grey", fontsize=8)
+    bar.set_label("floor height (mm); obstacles black, unknown grey, truth orange", fontsize=8)
     bar.outline.set_visible(False)
     try:
         figure.savefig(path, facecolor="white", metadata={"Software": None})

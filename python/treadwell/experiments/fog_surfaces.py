@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Iterable
+from typing import Final
 
 from treadwell.experiments import fog_cases as cases
-from treadwell.experiments.experiment import NOTHING, Results, Table, middle, share
+from treadwell.experiments.experiment import NOTHING, THE_PAPER, Results, Table, middle, share
 from treadwell.measuring.ceiling_watch import CeilingErrors
 from treadwell.measuring.element_watch import ElementCells
 
@@ -64,6 +65,15 @@ def slopes_walked(results: Results) -> Table:
     )
 
 
+_PAPER: Final = {
+    "slope": "no floor",
+    "curtain": "obstacle",
+    "table": "floor at its top",
+    "box below": "the table's height",
+}
+"""What the paper says of each element."""
+
+
 def surfaces(results: Results) -> Table:
     """Return the table of what the map has of a slope and of what lies above each other."""
     elements: dict[str, list[ElementCells]] = {}
@@ -73,12 +83,19 @@ def surfaces(results: Results) -> Table:
                 elements.setdefault(one.name, []).append(one)
     return Table(
         "A slope of 5 to 10 degrees; a curtain; a table with a box below it (sections III, VI)",
-        ("element", "cells", "floor, %", "obstacle, %", "floor off its top, mm", "tilt, degrees"),
-        tuple((name, *_shares(some)) for name, some in elements.items()),
         (
-            "Of cells in the end. The paper: a slope is no floor, a curtain is an obstacle, of two "
-            "surfaces the higher one is kept and what lies below is ignored, so that the box's "
-            "cells have the table's height.",
+            "element",
+            "cells",
+            "floor, %",
+            "obstacle, %",
+            "floor off its top, mm",
+            "tilt, degrees",
+            THE_PAPER,
+        ),
+        tuple((name, *_shares(some), _PAPER.get(name, NOTHING)) for name, some in elements.items()),
+        (
+            "Of cells in the end. The paper: of two surfaces the higher one is kept, and what lies "
+            "below is ignored, so that the box's cells have the table's height.",
         ),
     )
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from statistics import fmean, median
 from typing import Final
 
-from treadwell.experiments.experiment import NOTHING, Table, middle
+from treadwell.experiments.experiment import NOTHING, THE_PAPER, Table, middle
 from treadwell.runner import Run
 
 LEVELS: Final = (
@@ -42,7 +42,7 @@ def level_heights(runs: Sequence[Run]) -> Table:
         rows.append((name, NOTHING, f"{papers:.1f}", NOTHING, ours, NOTHING, NOTHING))
     return Table(
         "Heights of the levels in the map of obstacle_course, mm",
-        ("level", "true", "the paper", "median", "median absolute error", "errors", "runs"),
+        ("level", "true", THE_PAPER, "median", "median absolute error", "errors", "runs"),
         tuple(rows) if typical else (),
         (
             "The paper: ICRA 2005, Table I; its mean and its worst absolute error in the last two "

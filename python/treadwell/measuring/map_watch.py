@@ -53,10 +53,12 @@ class MapHistory:
     Attributes:
         frames: an entry a camera frame.
         pictures: the map as it was before each event that happened, and in the end.
+        outlines: for each of those the true outlines of what stood there then, (n, 2) m each.
     """
 
     frames: tuple[MapFrame, ...]
     pictures: tuple[RememberedMap, ...]
+    outlines: tuple[tuple[Floats, ...], ...] = ()
 
 
 class MapWatch:
@@ -71,8 +73,8 @@ class MapWatch:
         self._visited: dict[tuple[int, int], float] = {}
         self._frames: list[MapFrame] = []
         self._fired = 0
-        self._pictures: list[RememberedMap] = []
-        self._last: RememberedMap | None = None
+        self._pictures: list[tuple[RememberedMap, tuple[Floats, ...]]] = []
+        self._last: tuple[RememberedMap, tuple[Floats, ...]] | None = None
 
     def frame(self, trace: Trace) -> None:
         """Take in a camera frame."""
@@ -80,7 +82,7 @@ class MapWatch:
         if fired > self._fired and self._last is not None:
             self._pictures.append(self._last)
         self._fired = fired
-        self._last = _picture(trace)
+        self._last = (_picture(trace), self._outlines())
         centres, cells = lattice(trace)
         top_now = np.full(len(centres), -np.inf)
         for element in self._movable:
@@ -99,8 +101,19 @@ class MapWatch:
 
     def findings(self) -> MapHistory:
         """Return what was seen so far."""
-        last = () if self._last is None else (self._last,)
-        return MapHistory(tuple(self._frames), (*self._pictures, *last))
+        shown = [*self._pictures, *([] if self._last is None else [self._last])]
+        maps, outlines = tuple(one for one, _ in shown), tuple(some for _, some in shown)
+        return MapHistory(tuple(self._frames), maps, outlines)
+
+    def _outlines(self) -> tuple[Floats, ...]:
+        """Return the outlines of all that stands there now, (n, 2) m each."""
+        events, data = self._episode.events, self._episode.simulation.data
+        return tuple(
+            piece.outline + events.place(element, data)[:2]
+            for element in self._episode.course.elements
+            if element.mocap_id is None or element.name in events.present
+            for piece in element.pieces
+        )
 
 
 def _picture(trace: Trace) -> RememberedMap:

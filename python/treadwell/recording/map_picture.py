@@ -1,7 +1,7 @@
 """`map.png`: the remembered map from above, with the true course and the ways over it."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -29,6 +29,7 @@ from treadwell.recording.trajectory import Trajectory, jumps
 _UNKNOWN: Final = (0.80, 0.80, 0.82)
 _OBSTACLE: Final = (0.09, 0.09, 0.11)
 _BELIEVED, _CLIMBED, _TRUE, _OUTLINE, _GOAL = "#ff5fa2", "#7d3cd7", "#ffffff", "#e4572e", "#b8f53d"
+_TRUE_COURSE: Final = "true course"
 _LEAST_SPAN: Final = 0.02
 """Metres that the colours span at least, to either side of the middle."""
 _MARGIN: Final = 0.25
@@ -196,23 +197,19 @@ def draw_cells(
 
 def _draw_course(axes: Axes, course: Course) -> None:
     """Draw the outlines of everything that is there from the beginning; dashed what comes later."""
-    label: str | None = "true course"
-    for element in course.elements:
-        for piece in element.pieces:
-            style = "-" if element.present else "--"
-            axes.add_patch(
-                Polygon(
-                    piece.outline,
-                    closed=True,
-                    fill=False,
-                    edgecolor=_OUTLINE,
-                    linewidth=1.3,
-                    linestyle=style,
-                    zorder=3,
-                    label=label,
-                )
-            )
-            label = None
+    for present, style in ((True, "-"), (False, "--")):
+        pieces = [piece for e in course.elements if e.present == present for piece in e.pieces]
+        draw_outlines(axes, [piece.outline for piece in pieces], style)
+
+
+def draw_outlines(axes: Axes, outlines: Sequence[NDArray[np.float64]], style: str = "-") -> None:
+    """Draw what truly stands there, (n, 2) m each; the first of a picture stands in its legend."""
+    for outline in outlines:
+        shape = Polygon(outline, closed=True, fill=False, edgecolor=_OUTLINE, linewidth=1.3)
+        shape.set(linestyle=style, zorder=3)
+        if not any(one.get_label() == _TRUE_COURSE for one in axes.patches):
+            shape.set_label(_TRUE_COURSE)
+        axes.add_patch(shape)
 
 
 def _draw_ways(

@@ -16,20 +16,25 @@ _AROUND_M: Final = 0.3
 def _pictures(results: Results, folder: Path) -> Sequence[Picture]:
     """Draw one scene as every model has it: the first run of each."""
     # Late, because matplotlib takes half a second to import.
-    from treadwell.experiments.fog_pictures import draw_panels, known_bounds
+    from treadwell.experiments.fog_pictures import (
+        Panel,
+        draw_panels,
+        known_bounds,
+        true_outlines,
+    )
 
     made = []
     asked = {scene.name: scene.asks for scene in SCENES}
     for name in (SHOWN,):
         panels = [
-            (f"{model}: {run.outcome}", run.remembered)
+            Panel(f"{model}: {run.outcome}", run.remembered, true_outlines(run.result))
             for model in WORLD_MODELS
             for run in results.get(case_name(name, model), ())[:1]
             if run.remembered is not None and run.remembered.kind.any()
         ]
         if panels:
             path = folder / f"{name}.png"
-            bounds = known_bounds([found for _, found in panels], _AROUND_M)
+            bounds = known_bounds([panel.remembered for panel in panels], _AROUND_M)
             draw_panels(path, panels, bounds)
             made.append(Picture(f"One scene in all models: {asked[name]}", path))
     return made
