@@ -289,6 +289,9 @@ def test_the_exit_status_says_how_it_went(
     shown = capsys.readouterr()
     assert "Segmentation, recognition" in shown.out
     assert "experiment.md" in shown.err
+    notes = [note for table in stairs_tables({"short": [done]}) for note in table.notes]
+    assert notes
+    assert all(note in shown.err for note in notes)
 
 
 @pytest.mark.slow
@@ -310,7 +313,27 @@ def test_only_some_cases_are_run_and_an_unknown_one_is_bad_input(
     assert [case.name for case in small.narrowed(["again"]).cases] == ["again"]
     assert small.narrowed(()) is small
     assert execute(["experiment", "stairs", "--only", "stares_up"]) == 2
-    assert "allowed are stairs_up, " in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert "allowed are stairs_up, " in told
+    assert "did you mean 'stairs_up'?" in told
+
+
+def test_recordings_of_the_runs_are_kept_when_they_are_asked_for(
+    small: Experiment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+
+    def run(*_: object, record: bool, **__: object) -> Run:
+        asked.append(record)
+        return Run(climbed(), tmp_path)
+
+    monkeypatch.setattr(conducting, "run_episode", run)
+    monkeypatch.setitem(EXPERIMENTS, "small", small)
+    for number, more in enumerate(((), ("--record",))):
+        out = tmp_path / str(number)
+        words = ["experiment", "small", "--seeds", "1", "--workers", "1", "--out", str(out)]
+        assert execute([*words, *more]) == 0
+    assert asked == [False, False, True, True]
 
 
 def test_a_case_may_ask_for_more_seeds_or_fewer() -> None:

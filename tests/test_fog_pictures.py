@@ -14,6 +14,14 @@ from treadwell.experiments.fog_pictures import Panel, draw_panels, fog_pictures,
 from treadwell.map_memory import FLOOR, RememberedMap
 from treadwell.runner import Run
 
+RUBBLE = """
+[[course]]
+kind = "rubble"
+position = [0.5, 0.3]
+yaw = 0.3
+size = [0.3, 0.2]
+amplitude = 0.04
+"""
 TRUTH = np.array(to_rgb("#e4572e"))
 BOUNDS = (0.0, 1.0, -0.5, 0.5)
 
@@ -66,3 +74,11 @@ def test_the_outlines_of_a_run_are_those_of_its_course() -> None:
     made = world(BOX)
     (outline,) = true_outlines(result(made.scenario))
     assert np.allclose(outline, made.course.elements[0].pieces[0].outline)
+
+
+def test_rubble_has_one_outline_around_all_its_stones() -> None:
+    made = world(RUBBLE)
+    assert len(made.course.elements[0].pieces) > 10
+    (outline,) = true_outlines(result(made.scenario))
+    every = np.vstack([piece.outline for piece in made.course.elements[0].pieces])
+    assert np.allclose([outline.min(axis=0), outline.max(axis=0)], [every.min(0), every.max(0)])

@@ -189,6 +189,9 @@ def experiment(
         Path | None,
         typer.Option("--out", metavar="DIR", help="Its folder; default: a new one in runs/."),
     ] = None,
+    record: Annotated[
+        bool, typer.Option("--record", help="Keep a recording of every run, to inspect or replay.")
+    ] = False,
     as_json: JsonOption = False,
 ) -> int:
     """Run a paper's experiments, and print its figures with ours beside them."""
@@ -200,6 +203,7 @@ def experiment(
         seeds=range(first_seed, first_seed + seeds),
         workers=workers,
         out=out,
+        record=record,
         as_json=as_json,
     )
 

@@ -26,6 +26,7 @@ def experiment(
     workers: int | None,
     out: Path | None,
     as_json: bool,
+    record: bool = False,
 ) -> int:
     """Run an experiment, show its tables, and return the exit status.
 
@@ -36,13 +37,14 @@ def experiment(
         workers: processes that run episodes at the same time; None: as many as there are cores.
         out: the folder of the report and of the runs.
         as_json: write the report to standard output as JSON instead of tables.
+        record: keep a recording of every run.
 
     Raises:
         InputError: there is no such experiment or case, or the folder cannot be taken.
     """
     chosen = find_experiment(name).narrowed(only)
     workers = workers or os.cpu_count() or 1
-    report = conduct(chosen, seeds, out, workers=workers, progress=ProgressLine)
+    report = conduct(chosen, seeds, out, workers=workers, record=record, progress=ProgressLine)
     if as_json:
         write_json(report.document())
     else:
@@ -56,6 +58,8 @@ def experiment(
 
 
 def show(report: Report) -> None:
-    """Write the tables."""
+    """Write the tables, each with how to read it."""
     for table in report.tables:
         write_table(table.title, table.header, table.rows)
+        for note in table.notes:
+            write_message(note)

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -23,12 +23,13 @@ SCHEMA: Final = "treadwell.experiment/1"
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """One run to do: a case, a seed, the scenario's name or file, and its folder."""
+    """One run to do: a case, a seed, the scenario's name or file, its folder; with a recording?"""
 
     case: Case
     seed: int
     scenario: str
     folder: Path
+    record: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +106,7 @@ def conduct(
     out: Path | None = None,
     *,
     workers: int = 1,
+    record: bool = False,
     progress: Callable[[str], AbstractContextManager[Progress]] | None = None,
 ) -> Report:
     """Run an experiment, write its folder, and return the report. After Ctrl-C: of what there is.
@@ -114,6 +116,7 @@ def conduct(
         seeds: of each case; a case may ask for more or fewer, from the first on.
         out: the folder; it must be new or empty.
         workers: processes that run episodes at the same time; the results are the same.
+        record: keep a recording of every run, not only where a case needs it.
         progress: makes what is told how a run gets on, from its title; for one worker. None: nobody
             is told.
 
@@ -123,7 +126,11 @@ def conduct(
         SimulationError: a process that runs episodes died.
     """
     folder = make_experiment_folder(out, experiment.name)
-    jobs = [_job(case, seed, folder) for case in experiment.cases for seed in case.seeds(seeds)]
+    jobs = [
+        replace(_job(case, seed, folder), record=record or case.afterwards is not None)
+        for case in experiment.cases
+        for seed in case.seeds(seeds)
+    ]
     results = _one_by_one(jobs, progress) if workers == 1 else _side_by_side(jobs, workers)
     runs = tuple((job.case.name, done) for job, done in zip(jobs, results, strict=False))
     beside, whole = _beside(experiment, folder, workers, missing=len(runs) < len(jobs))
@@ -162,8 +169,9 @@ def _job(case: Case, seed: int, folder: Path) -> Job:
 def _done(job: Job, progress: Progress | None = None) -> Run:
     case = job.case
     episode = Episode(job.scenario, seed=job.seed, overrides=case.overrides)
-    record = case.afterwards is not None
-    done = run_episode(episode, out=job.folder, record=record, progress=progress, watch=case.watch)
+    done = run_episode(
+        episode, out=job.folder, record=job.record, progress=progress, watch=case.watch
+    )
     whole = done.outcome not in {"interrupted", "error"}
     return case.afterwards(done) if case.afterwards is not None and whole else done
 

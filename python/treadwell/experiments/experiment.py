@@ -9,6 +9,7 @@ from typing import Any
 from treadwell.errors import InputError
 from treadwell.measuring.watch import Watch
 from treadwell.runner import Run
+from treadwell.scenario.messages import nearest
 
 Draw = Callable[[int], dict[str, Any]]
 """Makes the scenario of a seed, as its file would be read."""
@@ -160,6 +161,7 @@ class Experiment:
             if name not in known:
                 raise InputError(
                     f"--only: {self.name} has no case {name!r}: allowed are {', '.join(known)}"
+                    f"{nearest(name, known)}"
                 )
         chosen = tuple(case for case in self.cases if case.name in names)
         return replace(self, cases=chosen, beside=None) if names else self

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from treadwell.course.build import build_course
+from treadwell.course.outlines import convex_outline
 from treadwell.errors import RecordingError
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.experiment import Picture, Results
@@ -82,10 +83,17 @@ def _remembered(results: Results, name: cases.Naming) -> list[Panel]:
 
 
 def true_outlines(result: Result) -> list[Floats]:
-    """Return the outlines of what stood on the course from the beginning, (n, 2) m each."""
+    """Return the outlines of what stood on the course from the beginning, (n, 2) m each.
+
+    Rubble has one around all its stones.
+    """
     scenario = Scenario.model_validate(dict(result.configuration))
     course = build_course(scenario, load_robot(scenario.robot))
-    return [piece.outline for e in course.elements if e.present for piece in e.pieces]
+    outlines: list[Floats] = []
+    for element in course.elements:
+        pieces = [piece.outline for piece in element.pieces] if element.present else []
+        outlines += [convex_outline(np.vstack(pieces))] if element.kind == "rubble" else pieces
+    return outlines
 
 
 def _removed(results: Results) -> list[Panel]:
