@@ -35,7 +35,7 @@ FOLDERS = {
     "Results": "docs/results",
 }
 """Entries of the menu that are a folder each, in their order."""
-ABOUT = ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")
+ABOUT = ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/release.md")
 ABOUT_FOLDERS = {"Decisions": "docs/decisions", "History": "docs/history"}
 
 PYTHON = {
