@@ -2,10 +2,19 @@
 
 import math
 from collections.abc import Sequence
+from pathlib import Path
 from statistics import fmean, pstdev
 from typing import Final
 
-from treadwell.experiments.experiment import NOTHING, Experiment, Results, Table, middle, share
+from treadwell.experiments.experiment import (
+    NOTHING,
+    Experiment,
+    Picture,
+    Results,
+    Table,
+    middle,
+    share,
+)
 from treadwell.experiments.level_heights import level_heights
 from treadwell.experiments.stairs_cases import (
     BASIN_BEGIN,
@@ -231,9 +240,17 @@ def stairs_tables(results: Results) -> list[Table]:
     return [table for table in made if table.rows]
 
 
+def _pictures(results: Results, folder: Path) -> Sequence[Picture]:
+    # Late, because matplotlib takes half a second to import.
+    from treadwell.experiments.stairs_pictures import stairs_pictures
+
+    return stairs_pictures(results, folder)
+
+
 STAIRS: Final = Experiment(
     name="stairs",
     description="Stairs seen, understood and climbed (Gutmann, Fukuchi, Fujita 2004 and 2005)",
     cases=tuple(claim.case for claim in CLAIMS),
     tables=stairs_tables,
+    pictures=_pictures,
 )
