@@ -55,6 +55,14 @@ def test_the_built_site_has_no_broken_link_and_fetches_nothing() -> None:
 
 
 @pytest.mark.docs
+@pytest.mark.parametrize("page", ["api/runs.html", "api/mapping.html"])
+def test_examples_of_docstrings_are_blocks_of_code(page: str) -> None:
+    text = (site.SITE / page).read_text()
+    assert '<span class="gp">' in text  # a prompt
+    assert "<blockquote>" not in text
+
+
+@pytest.mark.docs
 @pytest.mark.parametrize(
     ("word", "page"),
     [

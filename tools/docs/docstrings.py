@@ -53,6 +53,11 @@ class Docstrings(griffe.Extension):
         files = sorted(BINDINGS.rglob("*.rs"))
         self.core = dict(pair for path in files for pair in commented(path.read_text()))
 
+    def on_package(self, *, pkg: griffe.Module, **_: object) -> None:
+        """Complete the package itself, which is no object to `on_object`."""
+        if pkg.docstring and "```" not in pkg.docstring.value:
+            pkg.docstring.value = fenced(pkg.docstring.value)
+
     def on_object(self, *, obj: griffe.Object, **_: object) -> None:
         """Complete one module, class, function or attribute."""
         if obj.docstring:

@@ -39,7 +39,7 @@ ABOUT = ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/release.md"
 ABOUT_FOLDERS = {"Decisions": "docs/decisions", "History": "docs/history"}
 
 PYTHON = {
-    "Runs": ("treadwell.runner", "treadwell.episode", "treadwell.replaying.replay"),
+    "Runs": ("treadwell", "treadwell.runner", "treadwell.episode", "treadwell.replaying.replay"),
     "Parts of your own": ("treadwell.protocols",),
     "What parts are given": ("treadwell._core", "treadwell.observation"),
     "Mapping": ("treadwell.mapping",),
@@ -56,8 +56,9 @@ PYTHON = {
 }
 """Pages of the interface in Python, and the modules that each shows."""
 MEMBERS = {
+    "treadwell": "false",
     "treadwell._core": "[BodyState, Scan, Planes, FloorView, Goal, Situation, Staircase, Stair, "
-    "Climb, Stepping, Step]"
+    "Climb, Stepping, Step]",
 }
 """Of a module that shows more than a reader calls, what is shown."""
 
