@@ -30,6 +30,7 @@ def test_the_page_of_the_core_leads_to_its_crates_where_there_are_pages_of_them(
     assert "../rust/" not in plain
     linked = site.interface_pages(rust=Path("doc"))["api/rust.md"]
     assert '<a href="../rust/planning/index.html">' in linked
+    assert '<a href="../rust/_core/index.html"><code>bindings</code></a>' in linked
 
 
 def test_a_link_that_leads_nowhere_is_found(tmp_path: Path) -> None:

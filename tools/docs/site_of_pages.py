@@ -138,7 +138,9 @@ def _rust_page(rust: Path | None) -> str:
         said = _first_paragraph((ROOT / folder / "src" / "lib.rs").read_text(encoding="utf-8"))
         name = f"<code>{folder.name}</code>"
         if rust:  # no page of the site, so no link of Markdown
-            name = f'<a href="../rust/{folder.name}/index.html">{name}</a>'
+            manifest = tomllib.loads((ROOT / folder / "Cargo.toml").read_text())
+            library = manifest.get("lib", {}).get("name", folder.name)
+            name = f'<a href="../rust/{library}/index.html">{name}</a>'
         rows.append(f"| {name} | {said} |")
     return RUST_PAGE.format(said="" if rust else WITHOUT_RUST, rows="\n".join(rows))
 
