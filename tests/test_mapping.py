@@ -240,7 +240,7 @@ SKEW = np.diag([2.0, 1.0, 1.0, 1.0])
         (lambda: mapping.Map("fog", CAMERA, overrides={"fog.cel": 1}), "cel"),
         (lambda: mapping.Map("fog", CAMERA, overrides={"fgo": {"cell": 1}}), "fgo"),
         (lambda: mapping.Map("fog", CAMERA, overrides=["fog.cell"]), "KEY=VALUE"),
-        (lambda: mapping.Map("fog", CAMERA, overrides="fog.cell=1"), "a dict or a list"),
+        (lambda: mapping.Map("fog", CAMERA, overrides=cast("Any", [1])), "must be KEY=VALUE"),
         (lambda: mapping.Map(object, CAMERA), "has no method insert, view"),
         (lambda: mapping.Map("fog", CAMERA).view(), "no frame was taken in yet"),
         (lambda: mapping.Map("fog").insert(np.ones((2, 2)), np.eye(4)), "without a camera"),

@@ -12,12 +12,8 @@ from treadwell.errors import InputError
 from treadwell.plugins import check_component, load_component
 from treadwell.scenario.messages import describe, report
 from treadwell.scenario.model import Navigation
-from treadwell.scenario.overrides import assign, parse_setting
+from treadwell.scenario.overrides import Overrides, assign, read_overrides
 from treadwell.sources.frame import Floats, PinholeCamera
-
-Overrides = Mapping[str, Any] | Sequence[str]
-"""Settings of `[navigation]`: `{"fog.cell": 0.02}`, `{"fog": {"cell": 0.02}}` or
-`["fog.cell=0.02"]`; a key may begin with `navigation.`."""
 
 _SQUARE_WITHIN: Final = 1e-3
 """How far the columns of a rotation may be off being of length one, and square to each other."""
@@ -91,35 +87,20 @@ def positive(name: str, value: float) -> float:
     return float(value)
 
 
-def raw_tables(overrides: Overrides | None) -> dict[str, Any]:
+def raw_tables(overrides: Overrides) -> dict[str, Any]:
     """Return overrides as tables within tables, as a scenario's `[navigation]` has them.
+
+    Args:
+        overrides: `{"fog.cell": 0.02}`, `{"fog": {"cell": 0.02}}` or `["fog.cell=0.02"]`; a key may
+            begin with `navigation.`.
 
     Raises:
         InputError: a key that cannot be.
     """
     raw: dict[str, Any] = {}
-    _put(raw, "", overrides or {})
-    inner = raw.pop("navigation", {})
-    if not isinstance(inner, dict):
-        raise InputError("overrides: navigation must be a table")
-    _put(raw, "", inner)
+    for key, value in read_overrides(overrides):
+        assign(raw, key.removeprefix("navigation."), value)
     return raw
-
-
-def _put(raw: dict[str, Any], before: str, overrides: Overrides) -> None:
-    """Put overrides at their places, below a key."""
-    if isinstance(overrides, str):
-        raise InputError(f"overrides: must be a dict or a list of KEY=VALUE, got {overrides!r}")
-    pairs = (
-        overrides.items()
-        if isinstance(overrides, Mapping)
-        else [parse_setting(setting) for setting in overrides]
-    )
-    for key, value in pairs:
-        if isinstance(value, Mapping):
-            _put(raw, f"{before}{key}.", value)
-        else:
-            assign(raw, f"{before}{key}", value)
 
 
 def checked_tables(raw: Mapping[str, Any]) -> dict[str, Any]:

@@ -18,13 +18,13 @@ from treadwell.map_making.request import MapTable
 from treadwell.map_making.sizing import pooled, sizing
 from treadwell.mapping.camera import Camera
 from treadwell.mapping.checks import (
-    Overrides,
     checked_tables,
     depth_picture,
     own_part,
     pose_matrix,
     raw_tables,
 )
+from treadwell.scenario.overrides import Overrides
 from treadwell.sources.frame import Floats, RangeFrame
 
 NO_SURFACE: Final = "no level surface was found"
@@ -71,7 +71,7 @@ class Map:
         *,
         robot: str | Path | None = None,
         segmenter: str = "scan_line",
-        overrides: Overrides | None = None,
+        overrides: Overrides = (),
     ) -> None:
         """Choose the parts; the map is made by the first frame.
 

@@ -13,7 +13,6 @@ from treadwell._core import Climb, FloorView, Goal, Staircase, Ways
 from treadwell.core_settings import over
 from treadwell.errors import InputError
 from treadwell.mapping.checks import (
-    Overrides,
     checked_tables,
     finite_numbers,
     own_part,
@@ -23,6 +22,7 @@ from treadwell.mapping.checks import (
 from treadwell.mapping.map import Map
 from treadwell.protocols import FloorMap, Setup
 from treadwell.robot.load import load_robot
+from treadwell.scenario.overrides import Overrides
 
 _TRUSTED: Final = {"terrain": {"left_out": "far_levels"}}
 """A robot on its way doubts levels that it has not been near; a map that is given is believed."""
@@ -59,7 +59,7 @@ def plan(
     robot: str | Path = "qrio",
     start_height: float | None = None,
     goal_radius: float = 0.1,
-    overrides: Overrides | None = None,
+    overrides: Overrides = (),
 ) -> Way:
     """Plan a way over floor that is known.
 

@@ -8,10 +8,8 @@ from typing import Any
 from treadwell.components import CLASS_NAME, COMPONENTS
 from treadwell.errors import InputError
 from treadwell.scenario.messages import nearest, shown
-from treadwell.scenario.overrides import parse_setting
+from treadwell.scenario.overrides import Overrides, parse_setting
 
-Overrides = Sequence[str] | Mapping[str, Any]
-"""Settings `KEY=VALUE`, or a mapping of keys to values, in which tables may be mappings."""
 Vary = Sequence[str] | Mapping[str, Sequence[Any]]
 """`KEY=A,B,C` each, or a mapping of keys to the values that they take in turn."""
 

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any, Literal
 from treadwell.errors import InputError
 from treadwell.recording.run_folder import sweep_folder
 from treadwell.scenario.messages import shown
+from treadwell.scenario.overrides import Overrides
 from treadwell.sweeps.asked import Asked, care
 from treadwell.sweeps.conduct import Progress, conduct
 from treadwell.sweeps.engine import Engine, local_engine
 from treadwell.sweeps.row import row_of
-from treadwell.sweeps.settings import Overrides, Vary, setting_texts, vary_texts
+from treadwell.sweeps.settings import Vary, setting_texts, vary_texts
 from treadwell.sweeps.summary import summary_table
 from treadwell.sweeps.table import rows_table
 
