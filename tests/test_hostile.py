@@ -174,7 +174,7 @@ TREES: dict[str, bytes] = {
     "NaN": b"# Octomap OcTree file\nid OcTree\nsize 1\nres nan\ndata\n" + bytes(8),
     "no size of a voxel": b"# Octomap OcTree file\nid OcTree\nsize 1\nres 0\ndata\n" + bytes(8),
     "deep": b"# Octomap OcTree file\nid OcTree\nsize 99\nres 0.1\ndata\n" + b"\xff" * 100_000,
-    "another tree": b"# Octomap OcTree file\nid ColorOcTree\nsize 1\nres 0.1\ndata\n" + bytes(8),
+    "another tree": b"# Octomap OcTree file\nid OcTreeStamped\nsize 1\nres 0.1\ndata\n" + bytes(8),
     "no end of the header": b"# Octomap OcTree file\n" + b"x" * 1_000_000,
     "a number too long": b"# Octomap OcTree file\nid OcTree\nsize " + b"9" * 10_000 + b"\ndata\n",
 }

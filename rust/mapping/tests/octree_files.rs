@@ -132,8 +132,8 @@ fn a_bad_header_is_refused_by_line() {
             "log-odds must be finite, got NaN",
         ),
         (
-            b"# Octomap OcTree file\nid ColorOcTree\n".to_vec(),
-            "id must be OcTree, got \"ColorOcTree\"",
+            b"# Octomap OcTree file\nid OcTreeStamped\n".to_vec(),
+            "id must be OcTree or ColorOcTree, got \"OcTreeStamped\"",
         ),
         (
             b"# Octomap OcTree file\nsize 1\nres 1\ndata\n".to_vec(),
@@ -147,6 +147,42 @@ fn a_bad_header_is_refused_by_line() {
         let found = refusal(&bytes);
         assert!(found.contains(said), "{found}");
     }
+}
+
+#[test]
+fn colours_are_passed_over() {
+    let coloured = [
+        b"# Octomap OcTree file\nid ColorOcTree\nsize 2\nres 0.1\ndata\n".to_vec(),
+        [&0.5_f32.to_le_bytes()[..], &[1, 2, 3], &[0b10]].concat(),
+        [&0.5_f32.to_le_bytes()[..], &[255, 0, 9], &[0]].concat(),
+    ];
+    let tree = Octree::from_bytes("a.ot", &coloured.concat()).unwrap();
+    assert_eq!((tree.node_count(), tree.leaves().count()), (2, 1));
+    assert_eq!(
+        tree.leaves().next().unwrap().log_odds.to_bits(),
+        0.5_f32.to_bits()
+    );
+    let short = [&coloured[0][..], &coloured[1], &coloured[2][..7]].concat();
+    assert!(refusal(&short).ends_with("the file ends within the tree"));
+}
+
+#[test]
+fn a_tree_for_which_memory_has_no_room_is_refused() {
+    // Every inner node has four inner children: most bytes of memory for a byte of the file.
+    fn node(depth: u32, body: &mut Vec<u8>) {
+        if depth == 14 {
+            body.extend([1, 0]);
+            return;
+        }
+        body.extend([0xFF, 0xFF]);
+        (0..8).for_each(|_| node(depth + 1, body));
+    }
+    let mut body = vec![];
+    (0..6).for_each(|_| body.extend([3, 0]));
+    node(6, &mut body);
+    let bytes = [header(" binary", "1", "0.1"), body].concat();
+    let said = refusal(&bytes);
+    assert!(said.contains("the tree takes more than"), "{said}");
 }
 
 #[test]

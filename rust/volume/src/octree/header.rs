@@ -26,10 +26,32 @@ impl Format {
     }
 }
 
+/// What a tree keeps of each node beside what OctoMap's plain one does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum TreeKind {
+    /// Nothing.
+    Plain,
+    /// A colour, three bytes in the file, which is passed over.
+    Colour,
+}
+
+impl TreeKind {
+    const ALL: [Self; 2] = [Self::Plain, Self::Colour];
+
+    /// What OctoMap calls it.
+    const fn id(self) -> &'static str {
+        match self {
+            Self::Plain => "OcTree",
+            Self::Colour => "ColorOcTree",
+        }
+    }
+}
+
 /// What the header says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Header {
     pub(super) format: Format,
+    pub(super) kind: TreeKind,
     pub(super) nodes: usize,
     pub(super) resolution_m: f64,
     /// Where the nodes begin.
@@ -53,7 +75,7 @@ pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<Header, OctreeError> {
     };
     let mut fields = Fields {
         format: format_of(bytes).map_err(|reason| bad(0, reason))?,
-        is_octree: false,
+        kind: None,
         nodes: None,
         resolution_m: None,
     };
@@ -89,7 +111,7 @@ fn format_of(bytes: &[u8]) -> Result<Format, String> {
 /// What has been read of a header.
 struct Fields {
     format: Format,
-    is_octree: bool,
+    kind: Option<TreeKind>,
     nodes: Option<usize>,
     resolution_m: Option<f64>,
 }
@@ -102,8 +124,10 @@ impl Fields {
         let (key, value) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         let wrong = |allowed: &str| format!("{key} must be {allowed}, got \"{value}\"");
         match key {
-            "id" if value == "OcTree" => self.is_octree = true,
-            "id" => return Err(wrong("OcTree")),
+            "id" => {
+                let kind = TreeKind::ALL.into_iter().find(|kind| kind.id() == value);
+                self.kind = Some(kind.ok_or_else(|| wrong("OcTree or ColorOcTree"))?);
+            }
             "size" => {
                 let nodes = value.parse().map_err(|_| wrong("a number of nodes"))?;
                 self.nodes = Some(nodes);
@@ -131,7 +155,8 @@ impl Fields {
     fn header(&self, end: usize) -> Option<Header> {
         Some(Header {
             format: self.format,
-            nodes: self.nodes.filter(|_| self.is_octree)?,
+            kind: self.kind?,
+            nodes: self.nodes?,
             resolution_m: self.resolution_m?,
             end,
         })

@@ -91,7 +91,7 @@ impl Leaf {
 }
 
 /// Iterates over the leaves, in the order of OctoMap's files.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Leaves<'a> {
     nodes: &'a Nodes,
     /// What is still to be visited, the next one last.

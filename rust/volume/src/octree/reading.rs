@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::header::{self, Format};
+use super::header::{self, Format, TreeKind};
 use super::key::{DEPTH, Key, child_corner};
 use super::nodes::BRICK_DEPTH;
 use super::{Octree, OctreeConfig, OctreeError};
@@ -10,11 +10,15 @@ use super::{Octree, OctreeConfig, OctreeError};
 /// Bytes: a building of 1 cm voxels has a tenth.
 const LARGEST_FILE: u64 = 500_000_000;
 
+/// Bytes that a tree may take: nodes of a hostile file take forty times what they take in it.
+const LARGEST_TREE: usize = 1_000_000_000;
+
 /// Goes through the nodes of a file and builds the tree. Room is taken only for what has been read.
 struct Reader<'a> {
     name: &'a str,
     bytes: &'a [u8],
     at: usize,
+    kind: TreeKind,
     /// Nodes that were read.
     nodes: usize,
     tree: Octree,
@@ -59,6 +63,7 @@ impl Octree {
             name,
             bytes,
             at: header.end,
+            kind: header.kind,
             nodes: 0,
             tree,
         };
@@ -140,6 +145,9 @@ impl Reader<'_> {
             self.at -= 4;
             return Err(self.bad(format!("log-odds must be finite, got {value}")));
         }
+        if self.kind == TreeKind::Colour {
+            let _colour: [u8; 3] = self.take()?;
+        }
         let [children] = self.take()?;
         self.nodes += 1;
         if children == 0 {
@@ -154,8 +162,13 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Refuses children of single voxels.
+    /// Refuses children of single voxels, and trees for which memory has no room.
     fn check_depth(&self, depth: u32) -> Result<(), OctreeError> {
+        if self.tree.bytes() > LARGEST_TREE {
+            return Err(self.bad(format!(
+                "the tree takes more than {LARGEST_TREE} bytes, which is the limit"
+            )));
+        }
         if depth < DEPTH {
             return Ok(());
         }
