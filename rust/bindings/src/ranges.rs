@@ -1,5 +1,7 @@
 //! Rays through a map that does not change, as the localizer `monte_carlo` casts them.
 
+use std::sync::Arc;
+
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use volume::{LANES, Lanes, RangeField, SolidError, SolidVoxels};
@@ -18,7 +20,9 @@ impl PyRangeField {
     fn new(py: Python<'_>, octree: &PyOctree) -> PyResult<Self> {
         let tree = octree.tree();
         run(py, || {
-            Ok(Self(RangeField::new(&SolidVoxels::occupied(&tree)?)))
+            Ok(Self(RangeField::new(&Arc::new(SolidVoxels::occupied(
+                &tree,
+            )?))))
         })?
         .map_err(|error: SolidError| bad_setting(py, &error))
     }

@@ -14,7 +14,7 @@ use crate::{AroundTuning, KnownMapTuning, recut::recut};
 pub struct AroundLimits {
     /// Room that it needs above a floor, m.
     pub height_m: f64,
-    /// Surfaces of the map are joined by steps of at most this, m.
+    /// InnerSurfaces of the map are joined by steps of at most this, m.
     pub rise_m: f64,
     /// What rises by less than this above a floor is floor, m.
     pub delta_m: f64,

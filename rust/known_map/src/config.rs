@@ -1,12 +1,33 @@
 //! Settings of the known map.
 
-use settings::{NOT_NEGATIVE, POSITIVE, above, settings};
+use serde::{Deserialize, Serialize};
+use settings::{ANY, NOT_NEGATIVE, POSITIVE, above, choices, settings, within};
+
+/// Where in the occupied voxels of the map its surfaces lie.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, settings::schemars::JsonSchema,
+)]
+#[schemars(crate = "settings::schemars")]
+#[serde(rename_all = "snake_case")]
+pub enum MapSurfaces {
+    /// As free space says: rays that told of it measured the map, and one in which there is none was made of solids.
+    Auto,
+    /// At the faces between occupied voxels and others: solids fill the voxels whose centres they hold.
+    Faces,
+    /// Inside: a voxel is occupied where a measured range ended in it.
+    Inside,
+}
+
+choices!(MapSurfaces);
 
 settings! {
-    /// The map that the robot is told before it starts.
+    /// The map that the robot is told before it starts: made of the course, or read from the OctoMap file (`.bt`, `.ot`) that a scenario
+    /// names as `file`, by its path from the scenario file's folder.
     pub struct KnownMapConfig("navigation.static_map") {
         /// Side of the voxels of the map that the harness makes of a course. A map from a file has its own.
         resolution: f64 = 0.04, "m", POSITIVE;
+        /// Where in the occupied voxels the surfaces lie, which rays and distances end at.
+        surfaces: MapSurfaces = MapSurfaces::Auto, "-", ANY;
         /// Numbers behind what the robot reads from the map.
         tuning: KnownMapTuning;
     }
@@ -17,6 +38,8 @@ settings! {
     pub struct KnownMapTuning("navigation.static_map.tuning") {
         /// A map is not cut into voxels of another size when that makes more solid ones than this; it is refused.
         most_voxels: f64 = 2e7, "1", POSITIVE;
+        /// Where in voxels that were measured the surface lies.
+        surface: InnerSurfaceTuning;
         /// Where a body has room to stand.
         standing: StandingTuning;
         /// Ways over the map's floors, by which the planner is guided.
@@ -25,6 +48,18 @@ settings! {
         prior: PriorTuning;
         /// The map around the robot, as the world model `octree` reads it.
         around: AroundTuning;
+    }
+}
+
+settings! {
+    /// Where in voxels that were measured the surface lies: in the plane of what is occupied about each.
+    pub struct InnerSurfaceTuning("navigation.static_map.tuning.surface") {
+        /// Voxels to each side that are looked at: measured surfaces are one to three voxels thick.
+        reach: usize = 2, "1", within(1.0, 4.0);
+        /// It is a plane where the variance across is at most this share of the next one; else rays end beside the middle.
+        flatness: f64 = 0.25, "1", within(0.0, 1.0);
+        /// Sine of the angle between a ray and a plane below which it ends beside the middle, too: 3 degrees.
+        glancing: f64 = 0.05, "1", within(0.001, 1.0);
     }
 }
 

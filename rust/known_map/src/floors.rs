@@ -5,7 +5,7 @@ mod repair;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use volume::SolidVoxels;
+use volume::{InnerSurfaces, SolidVoxels};
 
 use crate::{FloorsTuning, KnownMapTuning, StandingRoom, standing::standing};
 
@@ -63,9 +63,14 @@ impl CostField {
 
 impl Floors {
     /// The floors of a map for a body.
-    pub(crate) fn new(solid: &SolidVoxels, room: StandingRoom, tuning: &KnownMapTuning) -> Self {
+    pub(crate) fn new(
+        voxels: (&SolidVoxels, Option<&InnerSurfaces>),
+        room: StandingRoom,
+        tuning: &KnownMapTuning,
+    ) -> Self {
+        let solid = voxels.0;
         let [cols, rows, _] = solid.size();
-        let mut places: Vec<(u32, f32)> = (standing(solid, room, &tuning.standing).iter())
+        let mut places: Vec<(u32, f32)> = (standing(voxels, room, &tuning.standing).iter())
             .map(|place| {
                 let [x, y, _] = place.voxel;
                 ((y * cols + x) as u32, place.top_m[2] as f32)
@@ -257,7 +262,7 @@ mod tests {
         ) {
             let mut boxes = vec![[[0.0, 0.0, -0.04], [2.0, 2.0, 0.0]]];
             boxes.extend(blocks.iter().map(|&(x, y, dx, dy, h)| [[x, y, 0.0], [x + dx, y + dy, 0.04 * f64::from(h)]]));
-            let floors = Floors::new(&SolidVoxels::of_boxes(&boxes, 0.04).unwrap(), StandingRoom { radius_m: 0.08, height_m: 0.55 }, &KnownMapTuning::default());
+            let floors = Floors::new((&SolidVoxels::of_boxes(&boxes, 0.04).unwrap(), None), StandingRoom { radius_m: 0.08, height_m: 0.55 }, &KnownMapTuning::default());
             let target = Target { at_m: [x, y], radius_m: 0.05, height_m: None };
             let mut field = CostField::default();
             floors.aim(&target, &vec![false; floors.count()], &mut field);

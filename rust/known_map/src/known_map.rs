@@ -2,11 +2,17 @@
 
 use std::sync::{Arc, OnceLock};
 
-use settings::{ConfigError, Table};
+use settings::{ConfigError, Table, require};
 use volume::octree::{Leaf, Octree, OctreeConfig};
-use volume::{DistanceField, RangeField, SolidError, SolidVoxels};
+use volume::{DistanceField, InnerSurfaceRule, InnerSurfaces, RangeField, SolidError, SolidVoxels};
 
-use crate::{Floors, KnownMapConfig, MapAround, Prior, Standing, StandingRoom, standing::standing};
+use crate::{
+    Floors, KnownMapConfig, MapAround, MapSurfaces, Prior, Standing, StandingRoom,
+    standing::standing,
+};
+
+/// Columns of a map's floors up to which memory has room: five bytes each.
+const MOST_COLUMNS: usize = 1 << 26;
 
 /// The map that a robot is told. Nothing that is seen changes it. What several components read is made when the first of them asks.
 #[derive(Debug)]
@@ -14,8 +20,10 @@ pub struct KnownMap {
     /// The octree that was told.
     pub tree: Arc<Octree>,
     solid: OnceLock<Result<Arc<SolidVoxels>, ConfigError>>,
+    /// Nothing where surfaces are the voxels' faces.
+    surfaces: OnceLock<Option<Arc<InnerSurfaces>>>,
     ranges: OnceLock<Arc<RangeField>>,
-    distances: OnceLock<Arc<DistanceField>>,
+    distances: OnceLock<Result<Arc<DistanceField>, ConfigError>>,
     config: KnownMapConfig,
 }
 
@@ -26,6 +34,7 @@ impl KnownMap {
         Ok(Self {
             tree,
             solid: OnceLock::new(),
+            surfaces: OnceLock::new(),
             ranges: OnceLock::new(),
             distances: OnceLock::new(),
             config,
@@ -88,31 +97,77 @@ impl KnownMap {
         solid.as_ref().map_err(Clone::clone)
     }
 
+    /// Whether ranges made this map, so that its surfaces lie in the voxels.
+    fn is_measured(&self) -> bool {
+        match self.config.surfaces {
+            MapSurfaces::Auto => self.tree.leaves().any(|leaf| !leaf.is_occupied()),
+            MapSurfaces::Faces => false,
+            MapSurfaces::Inside => true,
+        }
+    }
+
+    /// Where in the voxels the surfaces lie; none where that is their faces.
+    fn surfaces(&self) -> Result<Option<&Arc<InnerSurfaces>>, ConfigError> {
+        let solid = self.solid()?;
+        let tuning = &self.config.tuning.surface;
+        let rule = InnerSurfaceRule {
+            reach: tuning.reach,
+            flatness: tuning.flatness,
+            glancing: tuning.glancing,
+        };
+        let made = || (self.is_measured()).then(|| Arc::new(InnerSurfaces::new(solid, rule)));
+        Ok(self.surfaces.get_or_init(made).as_ref())
+    }
+
     /// How far rays get.
     pub fn ranges(&self) -> Result<&Arc<RangeField>, ConfigError> {
-        let solid = self.solid()?;
-        Ok((self.ranges).get_or_init(|| Arc::new(RangeField::new(solid))))
+        let (solid, surfaces) = (self.solid()?, self.surfaces()?);
+        Ok((self.ranges).get_or_init(|| {
+            Arc::new(match surfaces {
+                Some(surfaces) => RangeField::measured(solid, surfaces),
+                None => RangeField::new(solid),
+            })
+        }))
     }
 
     /// How near surfaces are.
     pub fn distances(&self) -> Result<&Arc<DistanceField>, ConfigError> {
-        let solid = self.solid()?;
-        Ok((self.distances).get_or_init(|| Arc::new(DistanceField::new(solid))))
+        let (solid, surfaces) = (self.solid()?, self.surfaces()?);
+        let made = || match surfaces {
+            Some(surfaces) => DistanceField::measured(solid, surfaces),
+            None => DistanceField::new(solid),
+        };
+        let distances = (self.distances).get_or_init(|| made().map(Arc::new).map_err(refusal));
+        distances.as_ref().map_err(Clone::clone)
     }
 
     /// Where a body has room to stand, in the order of the voxels' layers, rows and columns.
     pub fn standing(&self, room: StandingRoom) -> Result<Vec<Standing>, ConfigError> {
-        Ok(standing(self.solid()?, room, &self.config.tuning.standing))
+        let voxels = (self.solid()?.as_ref(), self.surfaces()?.map(Arc::as_ref));
+        Ok(standing(voxels, room, &self.config.tuning.standing))
+    }
+
+    /// The voxels whose tops are floors, of not more columns than there is room for.
+    fn floor_voxels(&self) -> Result<(&SolidVoxels, Option<&InnerSurfaces>), ConfigError> {
+        let solid = self.solid()?;
+        let [cols, rows, _] = solid.size();
+        let usable = cols * rows <= MOST_COLUMNS;
+        let allowed = format!("so coarse that the map spans at most {MOST_COLUMNS} columns");
+        let key = "navigation.static_map.resolution";
+        require(usable, key, &allowed, (cols * rows) as f64)?;
+        Ok((solid, self.surfaces()?.map(Arc::as_ref)))
     }
 
     /// The floors on which a body has room to stand, and the ways over them.
     pub fn floors(&self, room: StandingRoom) -> Result<Floors, ConfigError> {
-        Ok(Floors::new(self.solid()?, room, &self.config.tuning))
+        Ok(Floors::new(self.floor_voxels()?, room, &self.config.tuning))
     }
 
     /// What is to be expected where nothing was seen yet, by a robot of a height, m.
     pub fn prior(&self, height_m: f64) -> Result<Prior, ConfigError> {
-        Ok(Prior::new(self.solid()?, height_m, &self.config.tuning))
+        let tuning = &self.config.tuning;
+        let floors = Floors::new(self.floor_voxels()?, Prior::room(height_m), tuning);
+        Ok(Prior::new(self.solid()?, floors, height_m, tuning))
     }
 
     /// The map in voxels of a size of one's own, to be looked at from where the robot stands. Voxels so small that there are too many
@@ -134,6 +189,18 @@ fn refusal(error: SolidError) -> ConfigError {
         SolidError::TooLarge { found } => {
             let most = SolidVoxels::MOST;
             let allowed = format!("so coarse that the map spans at most {most} voxels");
+            return refused("resolution", &allowed, found.to_string());
+        }
+        SolidError::TooFull { found } => {
+            let most = SolidVoxels::MOST_SOLID;
+            let allowed = format!("so coarse that the map has at most {most} solid voxels");
+            return refused("resolution", &allowed, found.to_string());
+        }
+        SolidError::TooLargeForDistances { found } => {
+            let most = SolidVoxels::MOST_WITH_DISTANCES;
+            let allowed = format!(
+                "so coarse that the map spans at most {most} voxels where distances are asked for (likelihood_field)"
+            );
             return refused("resolution", &allowed, found.to_string());
         }
     };
@@ -193,7 +260,7 @@ mod tests {
         let far = [[[0.0; 3], [1.0; 3]], [[999.0; 3], [1000.0; 3]]];
         assert_eq!(
             said(KnownMap::of_boxes(&far, 0.5).unwrap_err()),
-            "navigation.static_map.resolution must be so coarse that the map spans at most 67108864 voxels, got 8000000000"
+            "navigation.static_map.resolution must be so coarse that the map spans at most 1000000000 voxels, got 8000000000"
         );
         assert_eq!(
             said(KnownMap::of_boxes(&far, 0.0).unwrap_err()),

@@ -10,7 +10,8 @@ mod standing;
 
 pub use around::{AroundLimits, MapAround};
 pub use config::{
-    AroundTuning, FloorsTuning, KnownMapConfig, KnownMapTuning, PriorTuning, StandingTuning,
+    AroundTuning, FloorsTuning, InnerSurfaceTuning, KnownMapConfig, KnownMapTuning, MapSurfaces,
+    PriorTuning, StandingTuning,
 };
 pub use floors::{CostField, Floors, Target};
 pub use known_map::KnownMap;

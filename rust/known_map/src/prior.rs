@@ -30,13 +30,21 @@ pub struct Prior {
 }
 
 impl Prior {
-    /// What a map says to a robot of a height, m.
-    pub(crate) fn new(solid: &Arc<SolidVoxels>, height_m: f64, tuning: &KnownMapTuning) -> Self {
-        let room = StandingRoom {
+    /// What a robot of a height, m, needs where a floor is to be expected.
+    pub(crate) const fn room(height_m: f64) -> StandingRoom {
+        StandingRoom {
             radius_m: 0.0,
             height_m,
-        };
-        let floors = Floors::new(solid, room, tuning);
+        }
+    }
+
+    /// What a map says to a robot of a height, m, for which it has these floors.
+    pub(crate) fn new(
+        solid: &Arc<SolidVoxels>,
+        floors: Floors,
+        height_m: f64,
+        tuning: &KnownMapTuning,
+    ) -> Self {
         Self {
             has_steps: floors.columns_near_steps(tuning.prior.stairs),
             floors,
@@ -97,7 +105,9 @@ mod tests {
 
     fn prior(boxes: &[[[f64; 3]; 2]]) -> Prior {
         let solid = SolidVoxels::of_boxes(boxes, 0.04).unwrap();
-        Prior::new(&Arc::new(solid), 0.58, &KnownMapTuning::default())
+        let tuning = KnownMapTuning::default();
+        let floors = Floors::new((&solid, None), Prior::room(0.58), &tuning);
+        Prior::new(&Arc::new(solid), floors, 0.58, &tuning)
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Where one can stand in the known map.
 
-use volume::SolidVoxels;
+use volume::{InnerSurfaces, SolidVoxels};
 
 use crate::StandingTuning;
 
@@ -9,7 +9,7 @@ use crate::StandingTuning;
 pub struct Standing {
     /// The solid voxel that one stands on.
     pub voxel: [usize; 3],
-    /// Middle of its top, m.
+    /// Middle of its top, or of the surface in it where that was measured, m.
     pub top_m: [f64; 3],
 }
 
@@ -25,13 +25,13 @@ pub struct StandingRoom {
 /// Tops of solid voxels above which a body has room: a cylinder that stands a step's height above them, on every level of the map.
 /// In the order of the voxels' layers, rows and columns.
 pub(crate) fn standing(
-    solid: &SolidVoxels,
+    (solid, surfaces): (&SolidVoxels, Option<&InnerSurfaces>),
     room: StandingRoom,
     tuning: &StandingTuning,
 ) -> Vec<Standing> {
     let StandingRoom { radius_m, height_m } = room;
     let side_m = solid.resolution_m;
-    let [cols, rows, layers] = solid.size().map(|count| count as i64);
+    let layers = solid.size()[2] as i64;
     let reach = (radius_m / side_m).ceil() as i64;
     let disc: Vec<[i64; 2]> = (-reach..=reach)
         .flat_map(|y| (-reach..=reach).map(move |x| [x, y]))
@@ -41,29 +41,31 @@ pub(crate) fn standing(
     let steps = ((tuning.step / side_m).round().max(1.0) as i64).min(layers);
     let body = steps + 1..=((height_m / side_m).ceil() as i64).min(layers);
     let mut places = Vec::new();
-    for (x, y, z) in
-        (0..layers).flat_map(|z| (0..rows).flat_map(move |y| (0..cols).map(move |x| (x, y, z))))
-    {
-        let bare =
-            solid.is_solid([x, y, z]) && (1..=steps).all(|dz| !solid.is_solid([x, y, z + dz]));
+    for voxel in solid.solid() {
+        let [x, y, z] = voxel.map(|at| at as i64);
+        let bare = (1..=steps).all(|dz| !solid.is_solid([x, y, z + dz]));
         let free = bare
             && !disc.iter().any(|[dx, dy]| {
                 body.clone()
                     .any(|dz| solid.is_solid([x + dx, y + dy, z + dz]))
             });
         if free {
-            let voxel = [x, y, z].map(|at| at as usize);
             let low = solid.corner_m(voxel);
+            let surface_m = surfaces.and_then(|surfaces| surfaces.height_m(voxel));
             places.push(Standing {
                 voxel,
                 top_m: [
                     low[0] + 0.5 * side_m,
                     low[1] + 0.5 * side_m,
-                    low[2] + side_m,
+                    surface_m.unwrap_or(low[2] + side_m),
                 ],
             });
         }
     }
+    places.sort_unstable_by_key(|place| {
+        let [x, y, z] = place.voxel;
+        [z, y, x]
+    });
     places
 }
 
@@ -85,7 +87,7 @@ mod tests {
             radius_m: 0.1,
             height_m: 0.55,
         };
-        let places = standing(&solid, room, &StandingTuning::default());
+        let places = standing((&solid, None), room, &StandingTuning::default());
         let any = |x: [f64; 2], z_m: f64| {
             places.iter().any(|place| {
                 let [px, _, pz] = place.top_m;
@@ -99,6 +101,6 @@ mod tests {
         assert!(places.iter().all(|place| place.top_m[2] > -1e-9));
         // A step over everything: only the highest of each column is left, at once.
         let over = StandingTuning { step: 1e9 };
-        assert!(standing(&solid, room, &over).len() < places.len());
+        assert!(standing((&solid, None), room, &over).len() < places.len());
     }
 }

@@ -149,7 +149,7 @@ fn rays(criterion: &mut Criterion) {
     let Ok(solid) = SolidVoxels::of_boxes(&BOXES, SIDE_M) else {
         return;
     };
-    let field = RangeField::new(&solid);
+    let field = RangeField::new(&std::sync::Arc::new(solid));
     // A low-discrepancy sequence (the plastic number's) is spread evenly over guesses and beams.
     let at =
         |index: u32, axis: i32| (f64::from(index) * 0.754_877_666_f64.powi(axis)).fract() - 0.5;

@@ -11,7 +11,8 @@ mod scan_match;
 pub use fast_slam::{FastSlamLocalizer, FastSlamLocalizerConfig};
 pub use localizer::{Estimate, Guess, Localizer, LocalizerError};
 pub use monte_carlo::{
-    Belief, MonteCarloConfig, MonteCarloLocalizer, RangeModel, StaticMap, TorsoPose,
+    Belief, CameraEstimate, CameraLocalizer, MonteCarloConfig, MonteCarloLocalizer, RangeModel,
+    StaticMap, TorsoPose,
 };
 pub use odometry::{OdometryLocalizer, OdometryLocalizerConfig};
 pub use part::{LocalizerNeeds, LocalizerPart};

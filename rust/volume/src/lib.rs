@@ -31,5 +31,8 @@ pub use picture::Picture;
 pub use placement::{Placement, Ray, Size};
 pub use probability::{ProbabilityTable, bayes};
 pub use ray::VoxelWalk;
-pub use solid::{DistanceField, LANES, Lanes, RangeField, SolidError, SolidVoxels};
+pub use solid::{
+    DistanceField, InnerSurfaceRule, InnerSurfaces, LANES, Lanes, RangeField, SolidError,
+    SolidVoxels,
+};
 pub use sparse::{GridKey, SparseGrid};

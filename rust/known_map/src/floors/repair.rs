@@ -72,7 +72,7 @@ mod tests {
             let mut boxes = vec![[[0.0, 0.0, -0.04], [2.0, 2.0, 0.0]]];
             boxes.extend(blocks.iter().map(|&(x, y, dx, dy, h)| [[x, y, 0.0], [x + dx, y + dy, 0.04 * f64::from(h)]]));
             let room = StandingRoom { radius_m: 0.08, height_m: 0.55 };
-            let floors = Floors::new(&SolidVoxels::of_boxes(&boxes, 0.04).unwrap(), room, &KnownMapTuning::default());
+            let floors = Floors::new((&SolidVoxels::of_boxes(&boxes, 0.04).unwrap(), None), room, &KnownMapTuning::default());
             let count = floors.count() as u32;
             prop_assume!(count > 0);
             let target = Target { at_m: [x, y], radius_m: 0.05, height_m: None };

@@ -67,21 +67,20 @@ impl GroundFinder {
 
     fn read(&mut self, planes: &Planes, config: &MonteCarloConfig) {
         self.sightings.clear();
-        let Some(camera) = planes.camera else {
+        let Some([width, height]) = planes.pinhole().map(|camera| camera.size_px) else {
             return;
         };
         let eye = planes.robot_from_camera.origin().inner.coords;
         let tuning = &config.tuning.ground;
-        let stride = camera.width.div_ceil(tuning.columns);
-        let window =
-            ((camera.width as f64 * tuning.normal_share) as usize).max(tuning.least_window);
+        let stride = width.div_ceil(tuning.columns);
+        let window = ((width as f64 * tuning.normal_share) as usize).max(tuning.least_window);
         let at = |col: usize, row: usize| {
-            let point = planes.points_in_robot_m.get(row * camera.width + col)?;
+            let point = planes.points_in_robot_m.get(row * width + col)?;
             let point = Vector3::from(point.map(f64::from));
             point.iter().all(|v| v.is_finite()).then_some(point)
         };
-        for row in (0..camera.height).step_by(stride) {
-            for col in (0..camera.width).step_by(stride) {
+        for row in (0..height).step_by(stride) {
+            for col in (0..width).step_by(stride) {
                 let Some(point_m) = at(col, row) else {
                     continue;
                 };
@@ -89,14 +88,8 @@ impl GroundFinder {
                 if !(config.reach[0]..config.reach[1]).contains(&range_m) {
                     continue;
                 }
-                let (left, right) = (
-                    col.saturating_sub(window),
-                    (col + window).min(camera.width - 1),
-                );
-                let (top, bottom) = (
-                    row.saturating_sub(window),
-                    (row + window).min(camera.height - 1),
-                );
+                let (left, right) = (col.saturating_sub(window), (col + window).min(width - 1));
+                let (top, bottom) = (row.saturating_sub(window), (row + window).min(height - 1));
                 let about = [at(left, row), at(right, row), at(col, top), at(col, bottom)];
                 let normal = match about {
                     [Some(left), Some(right), Some(top), Some(bottom)] => {
@@ -166,6 +159,48 @@ impl GroundFinder {
         }
         taken
     }
+}
+
+/// The floor in a picture's points, of a camera with a body's axes that stands in their origin: upward normal, and how far below it is, m.
+/// It is the level plane that most points lie on, with hardly any below it.
+pub(super) fn floor_below(
+    points_m: &[[f32; 3]],
+    config: &MonteCarloConfig,
+    draws: &mut Stream,
+) -> Option<(Vector3<f64>, f64)> {
+    let tuning = &config.tuning.camera;
+    let reach_m = config.reach[0]..config.reach[1];
+    let seen: Vec<_> = (points_m
+        .iter()
+        .map(|point| Vector3::from(point.map(f64::from))))
+    .filter(|point| reach_m.contains(&point.norm()))
+    .collect();
+    let stride = seen.len().div_ceil(tuning.points).max(1);
+    let points: Vec<_> = seen.into_iter().step_by(stride).collect();
+    if points.len() < 3 {
+        return None;
+    }
+    let tolerance_m = |point: &Vector3<f64>| {
+        config.ground_tolerance + config.range_noise_growth * point.norm_squared()
+    };
+    let share = |count: usize| count as f64 / points.len() as f64;
+    let on = |plane: &LevelPlane| {
+        let off_m = |point: &Vector3<f64>| plane.normal.dot(point) - plane.offset_m;
+        let below =
+            |point: &&Vector3<f64>| off_m(point) < -config.tuning.fit.sigmas * tolerance_m(point);
+        if share(points.iter().filter(below).count()) > tuning.below_floor {
+            return 0;
+        }
+        let near = |point: &&Vector3<f64>| off_m(point).abs() < tolerance_m(point);
+        points.iter().filter(near).count()
+    };
+    let planes = (0..tuning.samples).filter_map(|_| {
+        let three = std::array::from_fn(|_| points[draws.below(points.len())]);
+        LevelPlane::through(&three, tuning.upright).filter(|plane| plane.offset_m < 0.0)
+    });
+    let (count, plane) =
+        (planes.map(|plane| (on(&plane), plane))).max_by_key(|(count, _)| *count)?;
+    (share(count) > tuning.on_floor).then_some((plane.normal, -plane.offset_m))
 }
 
 /// Normal of the surface about a point, towards the camera.

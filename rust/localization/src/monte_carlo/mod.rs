@@ -2,6 +2,7 @@
 
 mod beams;
 mod belief;
+mod camera;
 mod config;
 mod directions;
 mod doubt;
@@ -39,6 +40,7 @@ use segmentation::Planes;
 use settings::{ConfigError, Table};
 
 pub use belief::Belief;
+pub use camera::{CameraEstimate, CameraLocalizer};
 pub use config::{MonteCarloConfig, RangeModel};
 pub use particle::TorsoPose;
 pub use static_map::StaticMap;
@@ -184,6 +186,30 @@ impl MonteCarloLocalizer {
         }
     }
 
+    /// Takes in a frame and what the body says of itself at it; whether it was used.
+    fn take(&mut self, reading: BodyReading, planes: &Planes) -> bool {
+        let before = self.last;
+        let motion = match &before {
+            Some(before) if !self.is_due(before, &reading) => return false,
+            Some(before) => Some(TorsoMotion::between(before, &reading, &self.config)),
+            None => {
+                self.start(&reading);
+                None
+            }
+        };
+        self.last = Some(reading);
+        self.step += 1;
+        self.beams
+            .draw(planes, &reading.torso_from_robot, &self.config, self.step);
+        self.observation
+            .set((&self.beams, 0.0), &reading, &self.map, &self.config);
+        if let Some(tracking) = &mut self.tracking {
+            tracking.update(motion.as_ref(), &mut self.observation, &self.map, self.step);
+        }
+        self.look_elsewhere(before.as_ref().zip(motion.as_ref()), &reading);
+        true
+    }
+
     /// Whether the estimate is not to be acted on.
     fn is_lost(&self) -> bool {
         let Some(tracking) = &self.tracking else {
@@ -202,25 +228,9 @@ impl Localizer for MonteCarloLocalizer {
         _view: &FloorView,
     ) -> Result<(), LocalizerError> {
         let reading = BodyReading::of(body, &planes.robot_from_camera.inner);
-        let before = self.last;
-        let motion = match &before {
-            Some(before) if !self.is_due(before, &reading) => return Ok(()),
-            Some(before) => Some(TorsoMotion::between(before, &reading, &self.config)),
-            None => {
-                self.start(&reading);
-                None
-            }
-        };
-        self.last = Some(reading);
-        self.step += 1;
-        self.beams
-            .draw(planes, &reading.torso_from_robot, &self.config, self.step);
-        self.observation
-            .set((&self.beams, 0.0), &reading, &self.map, &self.config);
-        if let Some(tracking) = &mut self.tracking {
-            tracking.update(motion.as_ref(), &mut self.observation, &self.map, self.step);
+        if !self.take(reading, planes) {
+            return Ok(());
         }
-        self.look_elsewhere(before.as_ref().zip(motion.as_ref()), &reading);
         if let Some(belief) = self.belief() {
             let found = upright(&belief.torso, &reading.odometry_from_torso);
             let robot = &body.odometry_from_robot;

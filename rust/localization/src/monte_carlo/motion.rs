@@ -17,6 +17,8 @@ pub(super) struct BodyReading {
     pub(super) odometry_from_torso: TorsoPose,
     /// The torso above what carries the robot, m.
     pub(super) torso_height_m: f64,
+    /// Whether a body feels its height and attitude: they are evidence then.
+    pub(super) is_felt: bool,
 }
 
 impl BodyReading {
@@ -31,6 +33,7 @@ impl BodyReading {
             torso_from_robot: robot_from_torso.inverse(),
             odometry_from_torso: TorsoPose::of(&torso),
             torso_height_m: robot_from_torso.translation.z,
+            is_felt: true,
         }
     }
 

@@ -51,6 +51,7 @@ pub(super) struct SeenFrame {
     pub(super) left_out: Vec<BeamRay>,
     random: f64,
     reach_m: f64,
+    is_felt: bool,
     height_m: f64,
     height_noise_m: f64,
     attitude_rad: [f64; 2],
@@ -90,6 +91,7 @@ impl SeenFrame {
                 short: short * config.short_rate * libm::exp(-config.short_rate * beam.range_m),
             }
         }));
+        self.is_felt = reading.is_felt;
         self.height_m = reading.torso_height_m;
         // The map's ground is as coarse as its voxels: an even distribution over one has a twelfth of its square as variance.
         self.height_noise_m =
@@ -178,8 +180,11 @@ impl SeenFrame {
         sum
     }
 
-    /// Logarithm of the likelihood of height, roll and pitch.
+    /// Logarithm of the likelihood of height, roll and pitch; nothing where no body feels them.
     fn body(&self, poses: &[TorsoPose; LANES], guesses: &Guesses, map: &StaticMap) -> Lanes {
+        if !self.is_felt {
+            return Lanes::ZERO;
+        }
         let [measured_roll, measured_pitch] = self.attitude_rad;
         let attitude = poses.map(|pose| {
             let off = [

@@ -13,6 +13,7 @@ pub(super) enum Purpose {
     Resampling,
     Injection,
     Jitter,
+    Floor,
 }
 
 /// The numbers of one particle at one step: splitmix64 from a place that the three together say.

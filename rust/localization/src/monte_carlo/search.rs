@@ -91,6 +91,11 @@ impl PlaceSearch {
         }
     }
 
+    /// The best place so far, however sure.
+    pub(super) const fn best(&self) -> Option<&Belief> {
+        self.best.as_ref()
+    }
+
     /// The best place so far, where it is more than a guess.
     pub(super) fn likely(&self) -> Option<&Belief> {
         (self.best.as_ref()).filter(|best| best.share >= self.config.least_share)

@@ -28,6 +28,8 @@ settings! {
         belief: BeliefTuning;
         /// How the robot is looked for elsewhere.
         search: SearchTuning;
+        /// A camera without a robot.
+        camera: CameraTuning;
     }
 }
 
@@ -134,5 +136,25 @@ settings! {
         frames: u32 = 200, "1", at_least(1.0);
         /// One in so many of the guesses that are drawn anywhere is drawn at the place that is believed.
         believed: usize = 10, "1", at_least(1.0);
+    }
+}
+
+settings! {
+    /// A depth camera that is carried, without a robot that feels its attitude and height.
+    pub struct CameraTuning("navigation.monte_carlo.tuning.camera") {
+        /// Time from picture to picture, by which errors of its odometry grow beside way and turn.
+        period: f64 = 0.1, "s", POSITIVE;
+        /// Room that there has to be above the floor where a camera is looked for.
+        room: f64 = 0.5, "m", POSITIVE;
+        /// Cosine of the largest angle, 60 degrees, between the camera's own upward axis and the vertical at which it finds the floor.
+        upright: f64 = 0.5, "1", between(0.0, 1.0);
+        /// Points of a picture, at most, in which the floor is looked for.
+        points: usize = 2000, "1", at_least(3.0);
+        /// Planes through three points that are tried.
+        samples: usize = 400, "1", at_least(1.0);
+        /// Share of the points that lie on the floor at least.
+        on_floor: f64 = 0.1, "1", SHARE;
+        /// Share of the points that lie below the floor at most.
+        below_floor: f64 = 0.05, "1", SHARE;
     }
 }

@@ -1,7 +1,5 @@
 //! How much free space lies ahead of each voxel, seen along an octant of directions.
 
-use super::SolidVoxels;
-
 /// Highest box that is told of, voxels.
 const MOST: u8 = (1 << HEIGHT_BITS) - 1;
 /// Bits of a box's height; those above say how many times doubled its width is.
@@ -15,10 +13,10 @@ const DOUBLINGS: std::ops::RangeInclusive<u32> = 0..=2;
 pub(super) struct FreeBoxes(Vec<u8>);
 
 impl FreeBoxes {
-    /// The boxes of a grid that is mirrored along the axes of which the octant has the bit set; x runs fastest, then y, then z.
-    pub(super) fn towards(voxels: &SolidVoxels, octant: usize) -> Self {
-        let size = voxels.size;
-        let solid = mirrored(voxels, octant);
+    /// The boxes of a grid of solid cells that is mirrored along the axes of which the octant has the bit set; x runs fastest, then y,
+    /// then z.
+    pub(super) fn towards(solid: &[bool], size: [usize; 3], octant: usize) -> Self {
+        let solid = mirrored(solid, size, octant);
         let mut largest = vec![0; solid.len()];
         for doublings in DOUBLINGS {
             let heights = heights(&solid, size, 1 << doublings);
@@ -50,8 +48,7 @@ fn volume(found: u8) -> i32 {
     width * width * height
 }
 
-fn mirrored(voxels: &SolidVoxels, octant: usize) -> Vec<bool> {
-    let size = voxels.size;
+fn mirrored(cells: &[bool], size: [usize; 3], octant: usize) -> Vec<bool> {
     let from = |axis: usize, at: usize| {
         if octant >> axis & 1 == 1 {
             size[axis] - 1 - at
@@ -59,11 +56,11 @@ fn mirrored(voxels: &SolidVoxels, octant: usize) -> Vec<bool> {
             at
         }
     };
-    let mut solid = Vec::with_capacity(voxels.solid.len());
+    let mut solid = Vec::with_capacity(cells.len());
     for z in 0..size[2] {
         for y in 0..size[1] {
-            let first = voxels.index([0, from(1, y), from(2, z)]);
-            let row = &voxels.solid[first..first + size[0]];
+            let first = (from(2, z) * size[1] + from(1, y)) * size[0];
+            let row = &cells[first..first + size[0]];
             if octant & 1 == 1 {
                 solid.extend(row.iter().rev());
             } else {
@@ -116,6 +113,7 @@ fn heights(solid: &[bool], [cols, rows, layers]: [usize; 3], wide: usize) -> Vec
 
 #[cfg(test)]
 mod tests {
+    use super::super::SolidVoxels;
     use super::*;
     use proptest::prelude::*;
 
@@ -133,7 +131,7 @@ mod tests {
             let cube = |x, y, z| [[side(x)[0], side(y)[0], side(z)[0]], [side(x)[1], side(y)[1], side(z)[1]]];
             let boxes: Vec<_> = solid.iter().map(|&(x, y, z)| cube(x, y, z)).collect();
             let voxels = SolidVoxels::of_boxes(&boxes, 0.1).unwrap();
-            let found = FreeBoxes::towards(&voxels, octant);
+            let found = FreeBoxes::towards(&voxels.dense(), voxels.size(), octant);
             let [cols, rows, layers] = voxels.size();
             let ahead = |corner: [usize; 3], on: [i32; 3]| std::array::from_fn(|axis| {
                 let (first, on) = (corner[axis] as i64, i64::from(on[axis]));

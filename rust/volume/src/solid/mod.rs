@@ -4,9 +4,11 @@ mod distance_field;
 mod free_boxes;
 mod range_field;
 mod side_by_side;
+mod surfaces;
 mod voxels;
 
 pub use distance_field::DistanceField;
 pub use range_field::RangeField;
 pub use side_by_side::{LANES, Lanes};
+pub use surfaces::{InnerSurfaceRule, InnerSurfaces};
 pub use voxels::{SolidError, SolidVoxels};

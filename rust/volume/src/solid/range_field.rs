@@ -1,33 +1,78 @@
 //! How far a ray gets through a map that does not change.
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 
-use super::{SolidVoxels, free_boxes::FreeBoxes};
+use super::voxels::{BLOCK, bit};
+use super::{InnerSurfaces, SolidVoxels, free_boxes::FreeBoxes};
 
-/// For each octant of directions, how much free space lies ahead of each voxel.
+/// Voxels of a box up to which each has its own free boxes, eight bytes: where there are more, each block of voxels has.
+const MOST_SINGLE: usize = 1 << 26;
+
+/// For each octant of directions, how much free space lies ahead of each cell.
 ///
 /// A ray cannot leave a free box but through its far faces, so that it is followed from box to box instead of from voxel to
-/// voxel, and ends at the face at which a traversal of all voxels would end.
+/// voxel, and ends at the face at which a traversal of all voxels would end. Cells are voxels; in a map of very many they are blocks, and a
+/// block that holds something is gone through voxel by voxel.
 #[derive(Debug, Clone)]
 pub struct RangeField {
     pub(super) resolution_m: f64,
+    /// Side of a cell, m.
+    pub(super) cell_m: f64,
     pub(super) per_m: f64,
     /// The grid's lowest corner, m.
     pub(super) corner_m: [f64; 3],
+    /// Cells along each axis.
     pub(super) size: [i32; 3],
     /// Bit `a` of an octant's number is set where the direction is negative along axis `a`; its grid is mirrored there.
     pub(super) octants: [FreeBoxes; 8],
+    /// What is in the cells, where they are blocks.
+    pub(super) blocks: Option<Arc<SolidVoxels>>,
+    /// Where in the voxels the surface lies; none where that is their faces.
+    pub(super) surfaces: Option<Arc<InnerSurfaces>>,
+}
+
+/// A ray in cells, mirrored so that it goes up along all axes.
+struct MirroredRay {
+    from: [f64; 3],
+    along: [f64; 3],
+    per_along: [f64; 3],
+    /// Where it ends, or leaves the grid.
+    leave: f64,
+    octant: usize,
 }
 
 impl RangeField {
-    /// The field of these voxels.
-    pub fn new(voxels: &SolidVoxels) -> Self {
+    /// The field of these voxels, whose faces are what a ray ends at.
+    pub fn new(voxels: &Arc<SolidVoxels>) -> Self {
+        Self::with_cells(voxels, voxels.count() > MOST_SINGLE)
+    }
+
+    /// The field of voxels in which surfaces lie: rays end at these.
+    pub fn measured(voxels: &Arc<SolidVoxels>, surfaces: &Arc<InnerSurfaces>) -> Self {
+        Self {
+            surfaces: Some(Arc::clone(surfaces)),
+            ..Self::new(voxels)
+        }
+    }
+
+    /// The field whose cells are voxels, or blocks.
+    pub(super) fn with_cells(voxels: &Arc<SolidVoxels>, are_blocks: bool) -> Self {
+        let (solid, size, edge) = if are_blocks {
+            (voxels.filled_blocks(), voxels.blocks, BLOCK)
+        } else {
+            (voxels.dense(), voxels.size, 1)
+        };
+        let cell_m = voxels.resolution_m * edge as f64;
         Self {
             resolution_m: voxels.resolution_m,
-            per_m: 1.0 / voxels.resolution_m,
+            cell_m,
+            per_m: 1.0 / cell_m,
             corner_m: voxels.corner_m([0; 3]),
-            size: voxels.size.map(|count| count as i32),
-            octants: std::array::from_fn(|octant| FreeBoxes::towards(voxels, octant)),
+            size: size.map(|count| count as i32),
+            octants: std::array::from_fn(|octant| FreeBoxes::towards(&solid, size, octant)),
+            blocks: are_blocks.then(|| Arc::clone(voxels)),
+            surfaces: None,
         }
     }
 
@@ -36,65 +81,149 @@ impl RangeField {
         self.resolution_m
     }
 
-    /// Distance from `origin_m` along the unit vector `direction` to where the ray enters a solid voxel, m; none where it meets
-    /// none within `max_range_m`. 0 for an origin in a solid voxel. Allocates nothing.
+    /// Distance from `origin_m` along the unit vector `direction` to where the ray enters a solid voxel, or meets the surface in it, m; none
+    /// where it enters none within `max_range_m`. 0 for an origin in a solid voxel without a surface. Allocates nothing.
     #[inline]
     pub fn cast(&self, origin_m: [f64; 3], direction: [f64; 3], max_range_m: f64) -> Option<f64> {
         // Axes along which the ray goes down are mirrored, so that it goes up along all of them.
-        let (mut from, mut along, mut per_along) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-        let (mut enter, mut leave) = (0.0_f64, max_range_m * self.per_m);
-        let mut octant = 0;
+        let mut course = MirroredRay {
+            from: [0.0; 3],
+            along: [0.0; 3],
+            per_along: [0.0; 3],
+            leave: max_range_m * self.per_m,
+            octant: 0,
+        };
+        let mut enter = 0.0_f64;
         for a in 0..3 {
-            from[a] = (origin_m[a] - self.corner_m[a]) * self.per_m;
-            along[a] = direction[a];
+            let mut from = (origin_m[a] - self.corner_m[a]) * self.per_m;
+            let mut along = direction[a];
             if direction[a] < 0.0 {
-                from[a] = f64::from(self.size[a]) - from[a];
-                along[a] = -along[a];
-                octant |= 1 << a;
+                from = f64::from(self.size[a]) - from;
+                along = -along;
+                course.octant |= 1 << a;
             }
-            per_along[a] = 1.0 / along[a];
-            let to_end = f64::from(self.size[a]) - from[a];
-            if along[a] > 0.0 {
-                enter = -lesser(-enter, from[a] * per_along[a]);
-                leave = lesser(leave, to_end * per_along[a]);
-            } else if from[a] < 0.0 || to_end <= 0.0 {
+            let per_along = 1.0 / along;
+            let to_end = f64::from(self.size[a]) - from;
+            if along > 0.0 {
+                enter = -lesser(-enter, from * per_along);
+                course.leave = lesser(course.leave, to_end * per_along);
+            } else if from < 0.0 || to_end <= 0.0 {
                 return None;
             }
+            (course.from[a], course.along[a]) = (from, along);
+            course.per_along[a] = per_along;
         }
-        if enter >= leave {
+        let (at, voxel) = self.follow(&course, enter)?;
+        let face_m = at * self.cell_m;
+        let Some(surfaces) = &self.surfaces else {
+            return Some(face_m);
+        };
+        Some(surfaces.along(voxel, origin_m, direction, face_m))
+    }
+
+    /// Where a ray ends, in cells, and the solid voxel there.
+    #[inline]
+    fn follow(&self, course: &MirroredRay, enter: f64) -> Option<(f64, [i32; 3])> {
+        let MirroredRay {
+            from,
+            along,
+            per_along,
+            leave,
+            octant,
+        } = course;
+        if enter >= *leave {
             return None;
         }
-        let boxes = &self.octants[octant];
+        let boxes = &self.octants[*octant];
         let last = self.size.map(|count| count - 1);
-        let mut voxel = [0; 3];
+        let mut cell = [0; 3];
         for a in 0..3 {
-            voxel[a] = floor(from[a] + along[a] * enter).clamp(0, last[a]);
+            cell[a] = floor(from[a] + along[a] * enter).clamp(0, last[a]);
         }
         let mut at = enter;
         loop {
-            let row = voxel[2] * self.size[1] + voxel[1];
-            let [width, height] = boxes.sides((row * self.size[0] + voxel[0]) as usize);
+            let row = cell[2] * self.size[1] + cell[1];
+            let [mut width, mut height] = boxes.sides((row * self.size[0] + cell[0]) as usize);
             if height == 0 {
-                return Some(at * self.resolution_m);
+                match &self.blocks {
+                    None => return Some((at, unmirrored(cell, last, *octant))),
+                    Some(voxels) => {
+                        let found = within(voxels, course, (cell, last), at);
+                        if found.is_some() {
+                            return found;
+                        }
+                        (width, height) = (1, 1);
+                    }
+                }
             }
             // Along an axis on which the ray stands still the exit is infinitely far: the face lies ahead of it.
-            let faces = [voxel[0] + width, voxel[1] + width, voxel[2] + height];
+            let faces = [cell[0] + width, cell[1] + width, cell[2] + height];
             let mut exits = [0.0; 3];
             for a in 0..3 {
                 exits[a] = (f64::from(faces[a]) - from[a]) * per_along[a];
             }
             at = lesser(lesser(exits[0], exits[1]), exits[2]);
             // No number for a time, from an origin that is none, ends it too.
-            if at.partial_cmp(&leave) != Some(Ordering::Less) {
+            if at.partial_cmp(leave) != Some(Ordering::Less) {
                 return None;
             }
             for a in 0..3 {
                 // Rounding may take no axis back, nor out of the grid.
-                let inside = floor(from[a] + along[a] * at).max(voxel[a]).min(last[a]);
-                voxel[a] = if exits[a] <= at { faces[a] } else { inside };
+                let inside = floor(from[a] + along[a] * at).max(cell[a]).min(last[a]);
+                cell[a] = if exits[a] <= at { faces[a] } else { inside };
             }
         }
     }
+}
+
+/// Where in a block, which it enters at `at`, a ray ends, in cells, and the solid voxel there.
+fn within(
+    voxels: &SolidVoxels,
+    course: &MirroredRay,
+    (cell, last): ([i32; 3], [i32; 3]),
+    mut at: f64,
+) -> Option<(f64, [i32; 3])> {
+    const EDGE: i32 = BLOCK as i32;
+    let block = unmirrored(cell, last, course.octant).map(|at| at as usize);
+    let bits = voxels.bits_of(block);
+    let edge = f64::from(EDGE);
+    let mut voxel: [i32; 3] = std::array::from_fn(|a| {
+        let inside = floor(edge * (course.from[a] + course.along[a] * at));
+        inside.clamp(EDGE * cell[a], EDGE * cell[a] + EDGE - 1)
+    });
+    loop {
+        let place = unmirrored(voxel, last.map(|at| EDGE * at + EDGE - 1), course.octant);
+        if bits >> bit(place.map(|at| at as usize)) & 1 == 1 {
+            return Some((at, place));
+        }
+        let exits: [f64; 3] = std::array::from_fn(|a| {
+            (f64::from(voxel[a] + 1) / edge - course.from[a]) * course.per_along[a]
+        });
+        let axis = (0..3).fold(
+            0,
+            |least, a| if exits[a] < exits[least] { a } else { least },
+        );
+        if exits[axis].partial_cmp(&course.leave) != Some(Ordering::Less) {
+            return None;
+        }
+        at = exits[axis];
+        voxel[axis] += 1;
+        if voxel[axis] == EDGE * (cell[axis] + 1) {
+            return None;
+        }
+    }
+}
+
+/// A cell as it is counted in the grid that is not mirrored.
+#[inline]
+pub(super) fn unmirrored(cell: [i32; 3], last: [i32; 3], octant: usize) -> [i32; 3] {
+    std::array::from_fn(|a| {
+        if octant >> a & 1 == 1 {
+            last[a] - cell[a]
+        } else {
+            cell[a]
+        }
+    })
 }
 
 /// The lesser of two numbers, by the one instruction that does not ask whether they are numbers.
@@ -171,7 +300,9 @@ mod tests {
 
     #[test]
     fn a_ray_with_a_number_that_is_none_ends() {
-        let field = RangeField::new(&SolidVoxels::of_boxes(&room([1.0; 3]), SIDE_M).unwrap());
+        let field = RangeField::new(&Arc::new(
+            SolidVoxels::of_boxes(&room([1.0; 3]), SIDE_M).unwrap(),
+        ));
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let _ = field.cast([0.0, 0.0, 0.0], [bad, 0.0, 1.0], 5.0);
             let _ = field.cast([bad, 0.0, 0.0], [0.6, 0.0, 0.8], 5.0);
@@ -192,9 +323,9 @@ mod tests {
                 boxes in boxes(),
                 rays in prop::collection::vec((prop::array::uniform3(-2.5..2.5f64), direction(), 0.1..6.0f64), 20),
             ) {
-                let voxels = SolidVoxels::of_boxes(&boxes, SIDE_M).unwrap();
-                let field = RangeField::new(&voxels);
-                for (from, along, max) in rays {
+                let voxels = Arc::new(SolidVoxels::of_boxes(&boxes, SIDE_M).unwrap());
+                let fields = [false, true].map(|are_blocks| RangeField::with_cells(&voxels, are_blocks));
+                for ((from, along, max), field) in rays.iter().flat_map(|&ray| fields.iter().map(move |field| (ray, field))) {
                     let (found, expected) = (field.cast(from, along, max), traversed(&voxels, from, along, max));
                     match (found, expected) {
                         (Some(found), Some(expected)) => prop_assert!((found - expected).abs() < 1e-9, "{found} {expected}"),
@@ -211,7 +342,7 @@ mod tests {
                 from in prop::array::uniform3(-0.4..0.4f64),
                 along in direction(),
             ) {
-                let voxels = SolidVoxels::of_boxes(&room(half), SIDE_M).unwrap();
+                let voxels = Arc::new(SolidVoxels::of_boxes(&room(half), SIDE_M).unwrap());
                 let field = RangeField::new(&voxels);
                 let to_wall = |a: usize| if along[a] == 0.0 { f64::INFINITY } else { (half[a] * along[a].signum() - from[a]) / along[a] };
                 let expected = to_wall(0).min(to_wall(1)).min(to_wall(2));
@@ -233,7 +364,7 @@ mod tests {
                 along in direction(),
             ) {
                 let half = half.map(|v| f64::from(v) * SIDE_M);
-                let field = RangeField::new(&SolidVoxels::of_boxes(&room(half), SIDE_M).unwrap());
+                let field = RangeField::new(&Arc::new(SolidVoxels::of_boxes(&room(half), SIDE_M).unwrap()));
                 let to_wall = |a: usize| if along[a] == 0.0 { f64::INFINITY } else { (half[a] * along[a].signum() - from[a]) / along[a] };
                 let expected = to_wall(0).min(to_wall(1)).min(to_wall(2));
                 prop_assert!((field.cast(from, along, 9.0).unwrap() - expected).abs() < 1e-9);

@@ -1,6 +1,6 @@
 //! Rays that are followed side by side: while the box of one is looked up, the others go on.
 
-use super::RangeField;
+use super::{RangeField, range_field::unmirrored};
 
 /// A number for each ray.
 pub type Lanes = wide::f32x8;
@@ -11,7 +11,7 @@ pub const LANES: usize = 8;
 const STILL: f32 = 1e-20;
 
 impl RangeField {
-    /// Places given in metres, axis by axis, as [`Self::cast_side_by_side`] takes them: in voxels from the grid's lowest corner.
+    /// Places given in metres, axis by axis, as [`Self::cast_side_by_side`] takes them: in cells from the grid's lowest corner.
     #[inline]
     pub fn in_voxels(&self, places_m: &[[f64; LANES]; 3]) -> [Lanes; 3] {
         std::array::from_fn(|a| {
@@ -30,6 +30,9 @@ impl RangeField {
         direction: &[Lanes; 3],
         max_range_m: Lanes,
     ) -> Lanes {
+        if self.blocks.is_some() {
+            return self.cast_one_by_one(origin, direction, max_range_m);
+        }
         let (mut rays, boxes) = Rays::begin(self, origin, direction, max_range_m);
         let last = self.size.map(|count| Lanes::splat((count - 1) as f32));
         let [cols, rows] = [self.size[0], self.size[1]].map(wide::i32x8::splat);
@@ -49,7 +52,51 @@ impl RangeField {
             rays.live &= !solid;
             rays.leave_boxes([width, width, height], &last);
         }
-        ends * Lanes::splat(self.resolution_m as f32)
+        let ends_m = ends * Lanes::splat(self.resolution_m as f32);
+        let Some(surfaces) = &self.surfaces else {
+            return ends_m;
+        };
+        let last = self.size.map(|count| count - 1);
+        let (mut ends_m, [x, y, z]) = (ends_m.to_array(), rays.voxel.map(Lanes::to_array));
+        for lane in 0..LANES {
+            if !ends_m[lane].is_finite() {
+                continue;
+            }
+            let mirrored = [x[lane], y[lane], z[lane]].map(|at| at as i32);
+            let voxel = unmirrored(mirrored, last, boxes[lane]);
+            let (from_m, along) = self.lane(lane, origin, direction);
+            let found_m = surfaces.along(voxel, from_m, along, f64::from(ends_m[lane]));
+            ends_m[lane] = found_m as f32;
+        }
+        ends_m.into()
+    }
+
+    /// Where one of eight rays begins, m, and in which direction it goes.
+    fn lane(
+        &self,
+        lane: usize,
+        origin: &[Lanes; 3],
+        direction: &[Lanes; 3],
+    ) -> ([f64; 3], [f64; 3]) {
+        let of = |lanes: &Lanes| f64::from(lanes.to_array()[lane]);
+        let from_m = std::array::from_fn(|a| self.corner_m[a] + of(&origin[a]) * self.cell_m);
+        (from_m, std::array::from_fn(|a| of(&direction[a])))
+    }
+
+    /// Where eight rays end, each followed alone: cells are blocks.
+    fn cast_one_by_one(
+        &self,
+        origin: &[Lanes; 3],
+        direction: &[Lanes; 3],
+        max_range_m: Lanes,
+    ) -> Lanes {
+        let reach_m = max_range_m.to_array();
+        let ends_m: [f32; LANES] = std::array::from_fn(|lane| {
+            let (from_m, along) = self.lane(lane, origin, direction);
+            let end_m = self.cast(from_m, along, f64::from(reach_m[lane]));
+            end_m.map_or(f32::INFINITY, |end_m| end_m as f32)
+        });
+        ends_m.into()
     }
 }
 
@@ -139,6 +186,8 @@ fn floor(value: Lanes) -> Lanes {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::super::SolidVoxels;
     use super::*;
     use proptest::prelude::*;
@@ -178,7 +227,7 @@ mod tests {
 
         #[test]
         fn rays_side_by_side_end_where_each_ends_alone(boxes in boxes(), rays in prop::array::uniform8(ray())) {
-            let field = RangeField::new(&SolidVoxels::of_boxes(&boxes, SIDE_M).unwrap());
+            let field = RangeField::new(&Arc::new(SolidVoxels::of_boxes(&boxes, SIDE_M).unwrap()));
             for ((from, along, range_m), found_m) in rays.into_iter().zip(together(&field, &rays)) {
                 // Or where one ends that passes within a ten-thousandth of a voxel: single precision.
                 let off_m = 1e-4 * SIDE_M;
@@ -198,7 +247,7 @@ mod tests {
     #[test]
     fn a_ray_with_a_number_that_is_none_ends_and_leaves_the_others_alone() {
         let floor = [[-1.0, -1.0, -0.1], [1.0, 1.0, 0.0]];
-        let field = RangeField::new(&SolidVoxels::of_boxes(&[floor], SIDE_M).unwrap());
+        let field = RangeField::new(&Arc::new(SolidVoxels::of_boxes(&[floor], SIDE_M).unwrap()));
         let down = ([0.3, 0.3, 0.7], [0.0, 0.0, -1.0], 5.0);
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let mut rays = [down; LANES];
