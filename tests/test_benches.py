@@ -28,6 +28,7 @@ LEAST: dict[str, list[str]] = {
     "intel_slam.py": ["--seeds", "1", "--scans", "30"],
     "kill_sweep.py": ["--kills", "1", "--episodes", "2"],
     "learn_labels.py": ["learned.txt", "--houses", "12"],
+    "map_localization.py": ["--seeds", "1", "--frames", "3", "--resolution", "0.08"],
     "memory.py": ["--minutes", "0.02"],
     "moving_people.py": ["--scenes", "1", "--seconds", "12"],
     "odometry.py": ["--seeds", "0", "--workers", "1", "--seconds", "0.3"],

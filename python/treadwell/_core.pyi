@@ -365,6 +365,22 @@ class WorldModel:
     def seconds(self) -> float: ...
 
 @final
+class MonteCarlo:
+    def __new__(
+        cls,
+        octree: Octree,
+        *,
+        size: tuple[int, int],
+        focal: tuple[float, float],
+        centre: tuple[float, float],
+        start: NDArray[np.float64] | None = None,
+        settings: str = "{}",
+    ) -> MonteCarlo: ...
+    def update(
+        self, depth: NDArray[np.float32], previous_from_current: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], float, float, bool] | None: ...
+
+@final
 class MovingFilter:
     def __new__(cls, settings: str = "{}") -> MovingFilter: ...
     def insert_picture(

@@ -23,6 +23,7 @@ from treadwell.footstep_plan import FootstepPlan, PlannedFootstep
 from treadwell.mapping.camera import Camera
 from treadwell.mapping.footsteps import plan_footsteps
 from treadwell.mapping.map import Map, Seen
+from treadwell.mapping.monte_carlo import MonteCarlo, Spread
 from treadwell.mapping.stairs import FoundStair, find_stairs
 from treadwell.mapping.view import floor_view
 from treadwell.mapping.ways import Way, plan
@@ -33,8 +34,10 @@ __all__ = [
     "FootstepPlan",
     "FoundStair",
     "Map",
+    "MonteCarlo",
     "PlannedFootstep",
     "Seen",
+    "Spread",
     "Way",
     "find_stairs",
     "floor_view",

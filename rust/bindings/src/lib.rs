@@ -16,6 +16,7 @@ mod learners;
 mod legs;
 mod lists;
 mod mesh_files;
+mod monte_carlo;
 mod moving;
 mod observation;
 mod octree;
@@ -70,6 +71,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<octree::PyOctree>()?;
     module.add_class::<pilot::PyPilot>()?;
     module.add_class::<pilot::PyTick>()?;
+    module.add_class::<monte_carlo::PyMonteCarlo>()?;
     module.add_class::<moving::PyMovingFilter>()?;
     module.add_class::<plan_view::PyOccupancyMap>()?;
     module.add_class::<scan_matching::PyScanSlam>()?;
