@@ -97,7 +97,12 @@ def navigation_settings(navigation: Navigation, of_robot: Mapping[str, Any]) -> 
         navigation: the scenario's table.
         of_robot: the robot's own parameters.
     """
-    return {**navigation.slots(), **over(of_robot, navigation.parameters())}
+    tables = over(of_robot, navigation.parameters())
+    told = tables.get("static_map")
+    if isinstance(told, dict):
+        # The core is told the file's map, not the file.
+        tables["static_map"] = {key: value for key, value in told.items() if key != "file"}
+    return {**navigation.slots(), **tables}
 
 
 def told_map(scenario: Scenario, course: "Course") -> Octree | None:
@@ -106,16 +111,17 @@ def told_map(scenario: Scenario, course: "Course") -> Octree | None:
     A table `[navigation.static_map]` asks for it: a component of the user's may read it.
 
     Raises:
-        InputError: `[navigation.static_map]` is bad, or the course too large for it.
+        InputError: `[navigation.static_map]` or the file that it names is bad, or the course too
+            large for it.
     """
     asked = "static_map" in scenario.navigation.parameters()
     if not asked and not MAPPED & set(scenario.navigation.slots().values()):
         return None
-    from treadwell.course.static_map import map_resolution, static_map
+    from treadwell.course.static_map import told_octree
 
     where = str(scenario.path or scenario.name)
     table = scenario.navigation.parameters().get("static_map", {})
-    return static_map(course, map_resolution(table, where), where)
+    return told_octree(course, table, scenario.folder, where)
 
 
 def navigation_parameters(scenario: Scenario, robot: "Robot") -> dict[str, Any]:

@@ -1,7 +1,8 @@
-"""The map that a robot is told: what is mapped of a course, in voxels (Maier 2012, III.A)."""
+"""The map that a robot is told: of a file, or what is mapped of a course (Maier 2012, III.A)."""
 
 import math
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Final
 
 import mujoco
@@ -12,6 +13,7 @@ from treadwell.course.course import Course, CourseElement
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import bounds
 from treadwell.errors import InputError
+from treadwell.scenario.loading import map_file_fault
 
 MARGIN: Final = 1.0
 """Metres of ground that the map has around what stands on it, and around the start."""
@@ -28,6 +30,34 @@ LEAST_THICKNESS: Final = 1.000001
 DOWN: Final = np.array([0.0, 0.0, -1.0])
 
 
+KEYS: Final = ("file", "resolution", "surfaces", "tuning")
+"""Of the table `[navigation.static_map]`. What the last two hold the core checks."""
+
+
+def told_octree(course: Course, table: Mapping[str, object], folder: Path, where: str) -> Octree:
+    """Return the map by the table `[navigation.static_map]`: that of a file, or of the course.
+
+    Args:
+        course: with its elements where the scenario puts them.
+        table: as the user wrote it.
+        folder: the scenario file's, in which the map's file lies.
+        where: the scenario's name for an error.
+
+    Raises:
+        InputError: the table is bad, the file broken, or the course too large.
+    """
+    resolution = map_resolution(table, where)
+    if "file" not in table:
+        return static_map(course, resolution, where)
+    fault = map_file_fault(table, folder)
+    if fault:
+        raise InputError(f"{where}: {fault}")
+    try:
+        return Octree.read(str(folder / str(table["file"])))
+    except InputError as error:
+        raise InputError(f"{where}: navigation.static_map.file: {error}") from None
+
+
 def map_resolution(table: Mapping[str, object], where: str) -> float:
     """Return the side of a voxel, metres, by the table `[navigation.static_map]`.
 
@@ -39,9 +69,9 @@ def map_resolution(table: Mapping[str, object], where: str) -> float:
         InputError: there is another key, or the resolution cannot be.
     """
     for key in table:
-        if key not in ("resolution", "tuning"):  # what stands under `tuning` the core checks
+        if key not in KEYS:
             raise InputError(
-                f"{where}: navigation.static_map.{key}: unknown key; allowed: resolution, tuning"
+                f"{where}: navigation.static_map.{key}: unknown key; allowed: {', '.join(KEYS)}"
             )
     value = table.get("resolution", RESOLUTION)
     if (

@@ -52,7 +52,7 @@ def export_course(scenario: str, out: Path) -> Sequence[Path]:
         OSError: a file cannot be written.
     """
     from treadwell.course.build import build_course
-    from treadwell.course.static_map import map_resolution, static_map
+    from treadwell.course.static_map import told_octree
     from treadwell.robot.load import load_robot
     from treadwell.scenario.loading import load_scenario
 
@@ -60,7 +60,7 @@ def export_course(scenario: str, out: Path) -> Sequence[Path]:
     course = build_course(made, load_robot(made.robot))
     table = made.navigation.parameters().get("static_map", {})
     where = str(made.path or made.name)
-    return write_octree(static_map(course, map_resolution(table, where), where), out)
+    return write_octree(told_octree(course, table, made.folder, where), out)
 
 
 def write_octree(tree: Octree, out: Path) -> list[Path]:

@@ -25,6 +25,11 @@ def scenario_schema() -> dict[str, Any]:
             {"pattern": f"^{CLASS_NAME.pattern}$"},
         ]
     navigation["properties"] |= _tables()
+    navigation["properties"]["static_map"]["properties"]["file"] = {
+        "type": "string",
+        "description": "An OctoMap file, .bt or .ot, by its path from the scenario file's folder, "
+        "in which it lies: the map that is told instead of one made of the course.",
+    }
     # A component of the user's has a table of its class's name.
     navigation["additionalProperties"] = {"type": "object"}
     draw = Draw.model_json_schema(ref_template="#/$defs/{model}")

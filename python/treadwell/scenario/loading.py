@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
@@ -30,6 +30,8 @@ LARGEST_FILE: Final = 1_000_000
 """Bytes of a scenario file."""
 LARGEST_ASSET: Final = 50_000_000
 """Bytes of a mesh or an MJCF file."""
+LARGEST_MAP: Final = 500_000_000
+"""Bytes of an octree's file, as the core has it."""
 LONGEST_KEY: Final = 100
 """Words of a dotted key."""
 MOST_DETAILS: Final = 1000
@@ -42,6 +44,7 @@ _TEXT_OR_COMMENT: Final = re.compile(
 _AROUND_DOT: Final = re.compile(rb"[ \t]*\.[ \t]*")
 _BETWEEN_KEYS: Final = re.compile(rb"[\s,=\[\]{}]+")
 SUFFIXES: Final = {"mesh": (".stl", ".obj"), "mjcf": (".xml", ".mjcf"), "terrain": (".png",)}
+MAP_SUFFIXES: Final = (".bt", ".ot")
 
 
 def load_scenario(
@@ -253,16 +256,39 @@ def _check_files(scenario: Scenario, raw: dict[str, Any]) -> list[str]:
             if fault:
                 key = dotted((*path, "file"), raw)
                 lines.append(f"{key}: found {shown(file)}; {fault}")
-    return lines
+    told = scenario.navigation.parameters().get("static_map")
+    fault = map_file_fault(told, scenario.folder) if isinstance(told, dict) else ""
+    return [*lines, fault] if fault else lines
 
 
-def asset_fault(folder: Path, file: str, suffixes: Sequence[str]) -> str:
+def map_file_fault(told: Mapping[str, object], folder: Path) -> str:
+    """Return what is wrong with the file of `[navigation.static_map]`, nothing where it has none.
+
+    Args:
+        told: the table.
+        folder: the scenario file's.
+    """
+    if "file" not in told:
+        return ""
+    key, file = "navigation.static_map.file", told["file"]
+    if not isinstance(file, str):
+        return f"{key}: found {shown(file)}; a file's name is needed"
+    if "resolution" in told:
+        return f"{key}: found {shown(file)} and a resolution; a map from a file has its own"
+    fault = asset_fault(folder, file, MAP_SUFFIXES, LARGEST_MAP)
+    return f"{key}: found {shown(file)}; {fault}" if fault else ""
+
+
+def asset_fault(
+    folder: Path, file: str, suffixes: Sequence[str], most_bytes: int = LARGEST_ASSET
+) -> str:
     """Return what is wrong with a file that a scenario names, nothing when it can be used.
 
     Args:
         folder: the scenario file's folder; the file must lie in it, links followed.
         file: as the scenario has it.
         suffixes: what its name may end in.
+        most_bytes: that it may have.
     """
     try:
         resolved = (folder / file).resolve()
@@ -272,8 +298,8 @@ def asset_fault(folder: Path, file: str, suffixes: Sequence[str]) -> str:
             return f"must end in {' or '.join(suffixes)}"
         if not resolved.is_file():
             return f"there is no such file in {folder}"
-        if resolved.stat().st_size > LARGEST_ASSET:
-            return f"must be at most {LARGEST_ASSET} bytes"
+        if resolved.stat().st_size > most_bytes:
+            return f"must be at most {most_bytes} bytes"
         opened(resolved).close()
     except (InputError, OSError, RuntimeError, ValueError) as error:
         return f"cannot be read: {shortened(str(error))}"
