@@ -37,6 +37,10 @@ pub(crate) struct PyMonteCarlo {
 impl PyMonteCarlo {
     /// `size` is width and height, `focal` and `centre` are along columns and rows, pixels; `start`, (4, 4), is map from camera.
     #[new]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one keyword argument of Python's each"
+    )]
     #[pyo3(signature = (octree, *, size, focal, centre, start=None, settings="{}"))]
     fn new(
         py: Python<'_>,
