@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import treadwell
+from treadwell import mapping
 from treadwell.cli.app import execute
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -47,9 +48,9 @@ LONG = {"bench": [pytest.mark.long]}
     ids=" ".join,
 )
 def test_a_command_is_understood(words: list[str], tmp_path: Path) -> None:
-    """Runs are only checked, and what needs a run or a file of the reader's is asked for help."""
+    """Runs are checked; what needs a run or a file of the reader's, or serves, shows its help."""
     own = [word for word in words[1:] if word.startswith("runs/") or word == "my_course.toml"]
-    if own:
+    if own or words[0] == "serve":
         assert execute([*words, "--help"]) == 0
     elif words[0] == "run":
         assert execute(["check", *words[1:]]) == 0
@@ -68,8 +69,10 @@ def test_a_link_leads_somewhere(page: Path) -> None:
 def test_the_names_in_the_python_example_exist() -> None:
     (example,) = blocks("python")
     names = set(re.findall(r"treadwell\.([a-zA-Z_]+)\(", example))
-    assert names == {"run", "Episode"}
+    assert names == {"run", "Episode", "sweep", "compare"}
     assert all(hasattr(treadwell, name) for name in names)
+    of_library = set(re.findall(r"mapping\.([a-zA-Z_]+)\(", example))
+    assert of_library == {"Camera", "Map", "find_stairs", "plan"} <= set(mapping.__all__)
     for part in re.findall(r"step\.(\w+)", example):
         from treadwell.episode import Step
 

@@ -98,6 +98,7 @@ NAVIGATION: list[tuple[dict[str, Any], str]] = [
     ({"planner": "os:system"}, "a client names no Python"),
     ({"localizer": "truth"}, "reads the simulator"),
     ({"localizer": "monte_carlo"}, "static_map: is missing: monte_carlo has to be told a map"),
+    ({"static_map": {"file": "house.bt"}}, "static_map.file: a server opens no map"),
     ({"fog": {"sell": 1}}, "sell"),
     ({"fog": {"cell": 0.0}}, "hello: navigation.fog.cell must be"),
 ]

@@ -194,6 +194,11 @@ def _refuse_python(navigation: object) -> None:
 
 def _static_map(hello: Message, scenario: Scenario) -> Octree | None:
     """Return the map that the client sent, where a component asks for one."""
+    if "file" in scenario.navigation.parameters().get("static_map", {}):
+        raise InputError(
+            f"{scenario.name}: navigation.static_map.file: a server opens no map's file; the client "
+            f"sends its bytes as the array {STATIC_MAP}"
+        )
     asking = sorted(MAPPED & set(scenario.navigation.slots().values()))
     sent = hello.arrays.get(STATIC_MAP)
     if not asking:
