@@ -196,8 +196,8 @@ def _static_map(hello: Message, scenario: Scenario) -> Octree | None:
     """Return the map that the client sent, where a component asks for one."""
     if "file" in scenario.navigation.parameters().get("static_map", {}):
         raise InputError(
-            f"{scenario.name}: navigation.static_map.file: a server opens no map's file; the client "
-            f"sends its bytes as the array {STATIC_MAP}"
+            f"{scenario.name}: navigation.static_map.file: a server opens no map's file; the "
+            f"client sends its bytes as the array {STATIC_MAP}"
         )
     asking = sorted(MAPPED & set(scenario.navigation.slots().values()))
     sent = hello.arrays.get(STATIC_MAP)
