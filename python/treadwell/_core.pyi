@@ -26,6 +26,7 @@ __all__ = [
     "GroundCosts",
     "Legs",
     "LocalRegression",
+    "MonteCarlo",
     "MovingFilter",
     "OccupancyGrid",
     "OccupancyMap",
