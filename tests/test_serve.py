@@ -28,12 +28,18 @@ def serving(
     folder: Path, *options: str, robot: str = "qrio"
 ) -> Iterator[tuple[subprocess.Popen[str], list[str]]]:
     """The program, listening, and what it said until then."""
+
+    def heed() -> None:
+        # Ctrl-C counts, also where these tests run in the background of a shell that ignores it.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
     program = subprocess.Popen(
         [*PROGRAM, "--robot", robot, "--timeout", "60", *options],
         cwd=folder,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
+        preexec_fn=heed,
     )
     try:
         assert program.stderr is not None

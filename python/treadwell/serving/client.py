@@ -125,7 +125,7 @@ class Client:
             fault = error  # the server may have said why it took no more
         answer = self._connection.receive()
         if answer is None:
-            raise fault or ProtocolError("the server has gone")
+            raise ProtocolError("the server has gone") from fault
         kind = kind_of(answer)
         if kind == ERROR:
             raise ProtocolError(f"the server: {answer.header.get('message')}")
