@@ -13,7 +13,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What the built package is made of: `make setup` builds anew when it changes.
 SOURCES := $(shell find rust models scenarios -type f)
 
-.PHONY: setup demo test test-core test-package test-long fast docs docs-test fuzz check lint lint-package clippy deny advisories format bench clean
+.PHONY: setup wheel demo test test-core test-package test-long fast docs docs-test fuzz check lint lint-package clippy deny advisories format bench clean
 
 setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/treadwell
 
@@ -24,6 +24,9 @@ setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/trea
 .uv/bin/uv:
 	$(PYTHON) -m venv .uv
 	.uv/bin/pip install --quiet --disable-pip-version-check uv==$(UV_VERSION)
+
+wheel: setup ## a wheel in dist/, for other environments: pip install dist/treadwell-*.whl
+	$(RUN) maturin build --release --out dist
 
 demo: setup ## one episode: the result, and where its pictures are
 	$(RUN) treadwell run $(DEMO)

@@ -227,6 +227,7 @@ def test_a_cloud_is_mapped_from_where_its_sensor_was() -> None:
     assert mapping.plan(world, (-0.5, 0.0, 0.0), (0.5, 0.0)).path is not None
 
 
+MILLIMETRES = np.full((120, 160), 1500, np.uint16)
 SKEW = np.diag([2.0, 1.0, 1.0, 1.0])
 
 
@@ -245,6 +246,8 @@ SKEW = np.diag([2.0, 1.0, 1.0, 1.0])
         (lambda: mapping.Map("fog", CAMERA).view(), "no frame was taken in yet"),
         (lambda: mapping.Map("fog").insert(np.ones((2, 2)), np.eye(4)), "without a camera"),
         (lambda: mapping.Map("fog", CAMERA).insert(np.ones((2, 2)), np.eye(4)), r"\(120, 160\)"),
+        (lambda: mapping.Map("fog", CAMERA).insert(MILLIMETRES, np.eye(4)), "divide by its units"),
+        (lambda: mapping.Map("fog", CAMERA).insert(1e5 * np.ones((120, 160)), np.eye(4)), "metres"),
         (lambda: mapping.Map("fog", CAMERA).insert(np.ones((120, 160)), SKEW), "a rotation and"),
         (lambda: mapping.Map("fog", CAMERA).insert(np.ones((120, 160)), [1]), r"\(4, 4\) matrix"),
         (

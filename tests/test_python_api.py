@@ -176,3 +176,15 @@ def test_a_class_that_no_scenario_could_name_will_do() -> None:
     made = treadwell.Episode("slalom", planner=kind)
     assert type(made.guards["planner"].component) is kind
     assert made.scenario.navigation.planner == "a_star"
+
+
+def test_a_part_may_be_named_as_a_scenario_names_it() -> None:
+    episode = treadwell.Episode("open_floor", planner="voronoi", localizer="scan_match")
+    assert episode.scenario.navigation.planner == "voronoi"
+    assert episode.scenario.navigation.localizer == "scan_match"
+    with pytest.raises(InputError, match=r"navigation\.planner: .*did you mean 'voronoi'"):
+        treadwell.Episode("open_floor", planner="voronoy")
+
+
+def test_the_doors_are_there_for_completion() -> None:
+    assert set(treadwell.__all__) <= set(dir(treadwell))

@@ -47,3 +47,8 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever the name means
     import importlib
 
     return getattr(importlib.import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    """Return the doors, those that were not used yet, too: for completion in a notebook."""
+    return sorted({*globals(), *__all__})

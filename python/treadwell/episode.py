@@ -25,7 +25,7 @@ from treadwell.judging.verdict import Referee, Verdict
 from treadwell.observation import Observation
 from treadwell.physics.motors import LateTargets, strengths
 from treadwell.physics.simulation import TICK_NS, Simulation, Start
-from treadwell.plugins import class_names, class_path
+from treadwell.plugins import brought, class_names, class_path
 from treadwell.protocols import Footstep, JointTargets, Pose
 from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import load_robot
@@ -114,13 +114,15 @@ class Episode:
             seed: instead of the scenario's.
             overrides: settings `KEY=VALUE`, as `--set` takes them, or a mapping of keys to values.
             user_code: False: a scenario that names a Python class is refused.
-            components: objects of the user's by slot, or their classes, as in `planner=MyPlanner`.
+            components: objects of the user's by slot, their classes, as in `planner=MyPlanner`, or
+                names as a scenario has them, as in `planner="voronoi"`.
 
         Raises:
             InputError: anything that the user gave is bad.
         """
         if not isinstance(scenario, Scenario):
             settings = with_settings(overrides, class_names(components))
+            components = brought(components)
             scenario = load_scenario(scenario, robot=robot, seed=seed, overrides=settings)
         self.scenario = scenario
         self.robot = load_robot(scenario.robot)
@@ -144,7 +146,7 @@ class Episode:
         self.verdict: Verdict | None = None
         self.times = StageTimes(("physics", "depth", *FOOTSTEP_STAGES), Pilot.stages)
         self._plans = 0
-        brought = {slot: class_path(component) for slot, component in components.items()}
+        paths = {slot: class_path(component) for slot, component in components.items()}
         given = user_components(scenario, dict(components), user_code=user_code)
         self.guards = guards(scenario, given, set(components))
         given.update(self.guards)
@@ -153,7 +155,7 @@ class Episode:
             given["localizer"] = TruthLocalizer(self.judge, self.simulation.data)
         told = core_settings(scenario, self.robot, self.course)
         static_map = told_map(scenario, self.course)
-        self.core_input = CoreInput(told, self.robot.file.navigation, static_map, brought)
+        self.core_input = CoreInput(told, self.robot.file.navigation, static_map, paths)
         self.pilot = build_core(scenario, told, given, static_map)
 
     def tick(self) -> Step:

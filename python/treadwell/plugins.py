@@ -207,16 +207,27 @@ def _made(kind: type, parameters: dict[str, Any], where: str, name: str) -> obje
 
 
 def class_names(components: Mapping[str, object]) -> dict[str, str]:
-    """Return the settings by which a scenario names the classes that a caller brings.
+    """Return the settings by which a scenario names the classes that a caller brings, or names.
 
     So it may have a table of their parameters, and says truly what it was run with. Of a class that
     no scenario could name there is none.
     """
+    named = {slot: one for slot, one in components.items() if isinstance(one, str)}
+    named |= {
+        slot: name
+        for slot, one in components.items()
+        if isinstance(one, type)
+        if CLASS_NAME.fullmatch(name := f"{one.__module__}:{one.__name__}")
+    }
+    return {f"navigation.{slot}": name for slot, name in named.items() if slot in COMPONENTS}
+
+
+def brought(components: Mapping[str, object]) -> dict[str, object]:
+    """Return the components that a caller brings, without those that are only named."""
     return {
-        f"navigation.{slot}": name
+        slot: component
         for slot, component in components.items()
-        if slot in COMPONENTS and isinstance(component, type)
-        if CLASS_NAME.fullmatch(name := f"{component.__module__}:{component.__name__}")
+        if not (isinstance(component, str) and slot in COMPONENTS)
     }
 
 

@@ -15,6 +15,8 @@ from treadwell.scenario.model import Navigation
 from treadwell.scenario.overrides import Overrides, assign, read_overrides
 from treadwell.sources.frame import Floats, PinholeCamera
 
+_FARTHEST_M: Final = 10_000.0
+"""Depths beyond this are no metres."""
 _SQUARE_WITHIN: Final = 1e-3
 """How far the columns of a rotation may be off being of length one, and square to each other."""
 
@@ -32,12 +34,16 @@ def depth_picture(depth: ArrayLike, camera: PinholeCamera) -> NDArray[np.float32
     """
     given = np.asarray(depth)
     expected = (camera.height, camera.width)
-    if given.dtype.kind not in "fiu" or given.shape != expected:
+    if given.dtype.kind != "f" or given.shape != expected:
         raise InputError(
-            f"depth must be numbers {expected} (rows, columns of the camera), "
-            f"got {given.dtype} {given.shape}"
+            f"depth must be floats {expected} (rows, columns of the camera), in metres; got "
+            f"{given.dtype} {given.shape}"
+            + (": divide by its units a metre" if given.dtype.kind in "iu" else "")
         )
     seen = np.isfinite(given) & (given > 0)
+    farthest = given.max(where=seen, initial=0.0)
+    if farthest > _FARTHEST_M:
+        raise InputError(f"depth must be metres, at most {_FARTHEST_M:g}; got {farthest:g}")
     return np.ascontiguousarray(np.where(seen, given, np.nan), np.float32)
 
 

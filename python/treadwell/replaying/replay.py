@@ -12,7 +12,7 @@ from treadwell.errors import CoreError, InputError
 from treadwell.guard import GuardedCore
 from treadwell.interruption import Interruption
 from treadwell.measuring.measures import timing
-from treadwell.plugins import class_names
+from treadwell.plugins import brought, class_names
 from treadwell.progress import Progress
 from treadwell.recording.core_products import known_occupied
 from treadwell.recording.log_file import BrokenLogError
@@ -77,13 +77,14 @@ def replay(
         out: the folder; it must be new or empty. None: a new one beside the run's.
         progress: is told how it gets on.
         user_code: False: a run whose scenario names a Python class is refused.
-        components: objects of the user's by slot, or their classes, as in `planner=MyPlanner`.
+        components: objects of the user's by slot, their classes, or names.
 
     Raises:
         InputError: anything that the user gave is bad; nothing was written.
         RecordingError: the folder cannot be written.
     """
     settings = with_settings(overrides, class_names(components))
+    components = brought(components)
     source = open_source(Path(run_dir), settings, tuple(components))
     return replay_source(
         source, run_dir, out=out, progress=progress, user_code=user_code, **components
