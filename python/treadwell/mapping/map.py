@@ -24,11 +24,12 @@ from treadwell.mapping.checks import (
     pose_matrix,
     raw_tables,
 )
+from treadwell.scenario.model import Navigation
 from treadwell.scenario.overrides import Overrides
 from treadwell.sources.frame import Floats, RangeFrame
 
 NO_SURFACE: Final = "no level surface was found"
-_CALL_LIMIT_S: Final = 30.0
+_CALL_LIMIT_S: Final = Navigation().call_limit
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,8 +16,6 @@ from treadwell.robot.load import load_robot
 Point = tuple[float, float, float]
 Edge = tuple[Point, Point]
 
-_JOINED_M: Final = 0.05
-"""Metres: the front edge of a stair and the back edge of the one before it are one edge."""
 _BEFORE_CELLS: Final = 3
 """Cells before an edge within which the ground in front of it is looked for; the first may have
 seen both levels."""
@@ -72,7 +70,7 @@ def find_stairs(world: Map) -> tuple[FoundStair, ...]:
     view = world.core.view()
     rises = [_rise(stair, stairs, view) for stair in stairs]
     return tuple(
-        _found(stair, rise, _reason(ways, stair, rise, _behind(stair, stairs)), world)
+        _found(stair, rise, _reason(ways, stair, rise, _behind(stair, stairs, view.cell)), world)
         for stair, rise in zip(stairs, rises, strict=True)
     )
 
@@ -114,22 +112,23 @@ def _middle(edge: Edge) -> NDArray[np.float64]:
     return np.asarray(0.5 * (left + right), np.float64)
 
 
-def _behind(stair: Stair, stairs: tuple[Stair, ...]) -> Stair | None:
+def _behind(stair: Stair, stairs: tuple[Stair, ...], cell: float) -> Stair | None:
     """Return the stair whose front edge is this one's back edge."""
     return next(
-        (one for one in stairs if one is not stair and _joined(stair.back, one.front)), None
+        (one for one in stairs if one is not stair and _joined(stair.back, one.front, cell)), None
     )
 
 
-def _joined(back: Edge, front: Edge) -> bool:
-    """Whether two edges are one, seen from above."""
-    return float(np.hypot(*(_middle(back) - _middle(front))[:2])) < _JOINED_M
+def _joined(back: Edge, front: Edge, within: float) -> bool:
+    """Whether two edges are one, seen from above, as near as a cell of the map tells, m."""
+    return float(np.hypot(*(_middle(back) - _middle(front))[:2])) < within
 
 
 def _rise(stair: Stair, stairs: tuple[Stair, ...], view: FloorView) -> float:
     """Return the change of height onto a stair, m; NaN where what lies before it was not seen."""
     before = next(
-        (one for one in stairs if one is not stair and _joined(one.back, stair.front)), None
+        (one for one in stairs if one is not stair and _joined(one.back, stair.front, view.cell)),
+        None,
     )
     if before is not None:
         return stair.height - before.height
