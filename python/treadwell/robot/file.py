@@ -88,8 +88,8 @@ class SensorsTable(Table):
 class LegTable(Table):
     """`[legs.*]`: a leg."""
 
-    joints: tuple[Name, Name, Name, Name, Name, Name]
-    """The joints from the hip down: yaw, roll, pitch, knee, ankle pitch, ankle roll."""
+    joints: Annotated[tuple[Name, ...], Field(min_length=5, max_length=7)]
+    """The joints from the hip down, five to seven, in whatever order the model has them."""
     forces: Name
     """The contact sensor of the sole: its net force, and where that acts; added where the MJCF has
     none.
@@ -127,12 +127,12 @@ class TrunkTable(Table):
 
 
 class HeadTable(Table):
-    """`[head]`: the joints that turn the camera."""
+    """`[head]`: the joints that turn the camera, and where the eyes are."""
 
-    pan: Name
-    """The joint that turns it left and right."""
-    tilt: Name
-    """The joint that nods."""
+    pan: Name | None = None
+    """The joint that turns it left and right, where there is one."""
+    tilt: Name | None = None
+    """The joint that nods, where there is one."""
     eye_height: Length = 0.45
     """Height of the eyes above the ground while the robot stands, as far as turning the head to a
     place needs it, m.
@@ -247,7 +247,7 @@ class RobotFile(Table):
     """Both legs."""
     trunk: TrunkTable = TrunkTable()
     """What is between pelvis and torso."""
-    head: HeadTable
+    head: HeadTable = HeadTable()
     """The joints that turn the camera."""
     arms: ArmsTable = ArmsTable()
     """Where the arms are held."""

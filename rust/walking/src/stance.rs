@@ -8,7 +8,7 @@ use settings::Table;
 
 use crate::config::GaitConfig;
 use crate::error::WalkError;
-use crate::leg_geometry::LegGeometry;
+use crate::leg::LegSolver;
 use crate::phase::FootPose;
 use crate::tuning::LegTuning;
 
@@ -39,7 +39,7 @@ impl UprightStance {
         let middle = 0.5 * (soles[0] + soles[1]);
         let mut hip_height_m = 0.0;
         for side in Side::BOTH {
-            hip_height_m += 0.5 * (LegGeometry::read(body, side, tuning)?.hip.z - middle.z);
+            hip_height_m += 0.5 * (LegSolver::new(body, side, 1.0, tuning)?.hip().z - middle.z);
         }
         Ok(Self {
             feet: soles.map(|sole| FootPose {

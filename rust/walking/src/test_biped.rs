@@ -60,6 +60,8 @@ fn link(
             kp: 150.0,
             kv: 3.0,
             follows: None,
+            ratio: 1.0,
+            offset: 0.0,
         }),
     }
 }
@@ -101,8 +103,8 @@ pub(crate) fn description() -> Description {
             right: leg("right"),
         },
         head: Head {
-            pan: "pan".to_owned(),
-            tilt: "tilt".to_owned(),
+            pan: Some("pan".to_owned()),
+            tilt: Some("tilt".to_owned()),
             eye_height: 0.45,
             eye_ahead: 0.04,
         },
@@ -125,10 +127,11 @@ pub(crate) fn description() -> Description {
 
 fn leg(side: &str) -> Leg {
     Leg {
-        joints: LEG.map(|(name, _)| format!("{side}_{name}")),
+        joints: LEG.map(|(name, _)| format!("{side}_{name}")).to_vec(),
         sole: Sole {
             link: format!("{side}_foot"),
             position: [0.0, 0.0, -0.045],
+            orientation: [1.0, 0.0, 0.0, 0.0],
             length: 0.105,
             width: 0.075,
         },

@@ -6,11 +6,12 @@ fn leg(sensors: Option<ForceSensors>) -> Leg {
     let sole = Sole {
         link: "foot".to_owned(),
         position: [0.02, 0.005, -0.045],
+        orientation: [1.0, 0.0, 0.0, 0.0],
         length: 0.15,
         width: 0.09,
     };
     Leg {
-        joints: ["a", "b", "c", "d", "e", "f"].map(str::to_owned),
+        joints: ["a", "b", "c", "d", "e", "f"].map(str::to_owned).to_vec(),
         sole,
         sensors,
     }
