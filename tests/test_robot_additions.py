@@ -65,7 +65,7 @@ def _with(folder: Path, file: str, old: str, new: str) -> Path:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("[gait]", "[stand]\nleft_knee_pitch = 1.0\n[gait]", "stand: qrio.xml has a keyframe"),
+        ("[gait]", "[stand]\nknee = 1.0\n[gait]", "stand.knee: there is no such joint"),
         ("[gait]", "[ranges]\nneck_pan = [-1, 1]\n[gait]", "ranges.neck_pan: qrio.xml has a range"),
         ("[gait]", "[ranges]\nneck = [-1, 1]\n[gait]", "ranges.neck: there is no such joint"),
         ('site = "imu"', 'site = "imu"\nlink = "torso"', "imu.link: qrio.xml has a site 'imu'"),

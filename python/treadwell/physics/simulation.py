@@ -82,7 +82,6 @@ class Simulation:
             play=robot.file.encoders.play if play else 0.0,
             timestep=float(model.opt.timestep),
         )
-        driven = [i for i in range(len(joints)) if i not in robot.followers]
         actuators = [int(model.actuator(name).id) for name in robot.actuators]
         self._physics = Physics(
             model,
@@ -90,7 +89,7 @@ class Simulation:
             len(joints),
             self._positions.start,
             self._velocities.start,
-            list(zip(driven, actuators, strict=True)),
+            list(zip(robot.driven, actuators, strict=True)),
         )
         self.place(start or Start())
         self.steps = 0

@@ -13,7 +13,9 @@ def followers(model: mujoco.MjModel) -> dict[int, int]:
     Args:
         model: a compiled MJCF whose equalities `check_robot` accepts.
     """
-    return {int(model.eq_obj1id[i]): int(model.eq_obj2id[i]) for i in range(model.neq)}
+    kind = mujoco.mjtEq.mjEQ_JOINT
+    ties = [i for i in range(model.neq) if model.eq_type[i] == kind]
+    return {int(model.eq_obj1id[i]): int(model.eq_obj2id[i]) for i in ties}
 
 
 def is_tie(model: mujoco.MjModel, equality: int) -> bool:

@@ -16,11 +16,12 @@ from treadwell.data import robot_names as robot_names
 from treadwell.errors import InputError
 from treadwell.mjcf.build import check_builds, compiled, read_spec
 from treadwell.mjcf.xml import check_xml
-from treadwell.robot.additions import STAND, complete, prepare
+from treadwell.robot.additions import complete, prepare
 from treadwell.robot.check import check_robot
 from treadwell.robot.description import describe
 from treadwell.robot.file import MotorsTable, RobotFile
 from treadwell.robot.followers import followers
+from treadwell.robot.keyframes import STAND
 from treadwell.robot.motor_limits import MotorLimits, rotors
 from treadwell.robot.reading import read_robot_file
 from treadwell.scenario.messages import shortened
@@ -92,6 +93,11 @@ class Robot:
         return {follower - 1: leader - 1 for follower, leader in tied.items()}
 
     @cached_property
+    def driven(self) -> tuple[int, ...]:
+        """The joints that have a motor of their own, in joint order."""
+        return tuple(sorted(int(joint) - 1 for joint in self.nominal.actuator_trnid[:, 0]))
+
+    @cached_property
     def stand_qpos(self) -> NDArray[np.float64]:
         """(7 + n,) m, wxyz and rad: the robot's generalised positions in the keyframe."""
         return np.array(self.nominal.key(STAND).qpos)
@@ -128,7 +134,13 @@ class Robot:
         return describe(self.name, self.nominal, self.file, self.stand, self.limits)
 
     def _group(self, joint: str) -> MotorsTable:
-        return next(group for group in self.file.motors.values() if joint in group.joints)
+        groups = self.file.motors.values()
+        return next((group for group in groups if joint in group.joints), _no_motor(joint))
+
+
+def _no_motor(joint: str) -> MotorsTable:
+    """Return what stands for the motor of a joint that has none: as good as nothing."""
+    return MotorsTable(joints=(joint,), peak_torque=0.001, no_load_speed=1.0, kp=0.001, kv=0.0)
 
 
 def load_robot(name_or_path: str | Path) -> Robot:
