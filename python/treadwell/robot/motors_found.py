@@ -5,8 +5,6 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from treadwell.robot.bearing import Load
-
 GRAVITY = 9.81
 TORQUE_LEVER = 0.08
 """Lever of a leg's motor that bears the whole weight, m, for a leg of 0.25 m."""
@@ -197,9 +195,3 @@ class Fitting:
             if torque / losing >= SLOWEST:
                 stall, speed = torque, torque / losing
         return Servo(torque, stall, speed, kp, kv, damping, armature, " and ".join(said))
-
-
-def too_weak(loads: list[Load], most: float) -> Load | None:
-    """Return what bears the largest share of its peak torque, where that is more than `most`."""
-    worst = max(loads, key=lambda load: load.share)
-    return worst if worst.share > most else None

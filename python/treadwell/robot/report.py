@@ -11,6 +11,7 @@ from treadwell.errors import InputError
 from treadwell.robot.anatomy import Anatomy, nameless
 from treadwell.robot.file import SoleTable
 from treadwell.robot.leg_faults import leg_faults
+from treadwell.robot.leg_loads import leg_loads, too_weak
 from treadwell.robot.load import Robot, load_folder
 from treadwell.robot.model_file import compile_alone, find_model
 from treadwell.robot.reach import Reach, Rise
@@ -59,6 +60,7 @@ def report_on(folder: Path) -> dict[str, Any]:
     document |= _found(anatomy)
     if robot is not None:
         document |= _told(robot, anatomy, document)
+        document["problems"] += too_weak(document["loads"])
         try:
             document["gait"] = _gait(robot)
         except InputError as error:
@@ -169,6 +171,7 @@ def _told(robot: Robot, anatomy: Anatomy, document: dict[str, Any]) -> dict[str,
             }
             for order, name in enumerate(robot.joints)
         ],
+        "loads": leg_loads(robot, data),
         "camera": {
             "name": file.camera.name,
             "link": robot.nominal.body(int(robot.nominal.cam_bodyid[camera])).name,
