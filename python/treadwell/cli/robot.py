@@ -94,6 +94,7 @@ def _show_legs(document: Mapping[str, Any]) -> None:
             rows.append(
                 (
                     joint["name"],
+                    joint["role"],
                     side,
                     " ".join(f"{value:g}" for value in joint["axis"]),
                     "none" if bounds is None else f"{bounds[0]:.2f} to {bounds[1]:.2f} rad",
@@ -102,7 +103,7 @@ def _show_legs(document: Mapping[str, Any]) -> None:
                     else "",
                 )
             )
-    write_table("legs, from the hip down", ("joint", "leg", "axis", "range", "motor"), rows)
+    write_table("legs, from the hip down", ("joint", "does", "leg", "axis", "range", "motor"), rows)
     soles = [
         (
             side,

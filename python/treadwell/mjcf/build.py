@@ -12,6 +12,7 @@ from treadwell.limited import limited
 
 MESH_SUFFIXES = (".stl", ".obj")
 URDF_SUFFIX = ".urdf"
+MASSLESS = "; give that link an <inertial>, or a <geom> that has a mass"
 MOST_BESIDE = 2000
 """Files of a folder that are looked at."""
 
@@ -32,7 +33,9 @@ def compiled(spec: mujoco.MjSpec, what: str) -> mujoco.MjModel:
             warnings.simplefilter("ignore")
             model = spec.compile()
     except (ValueError, RuntimeError, MemoryError) as error:
-        raise InputError(f"{what}: MuJoCo cannot build it: {one_line(error)}") from None
+        line = one_line(error)
+        hint = MASSLESS if "mass and inertia" in line else ""
+        raise InputError(f"{what}: MuJoCo cannot build it: {line}{hint}") from None
     check_finite(model, what)
     return model
 

@@ -1,5 +1,6 @@
 """What an MJCF shows of a robot without being told: its legs, and how alike they are."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import mujoco
@@ -143,9 +144,18 @@ class Anatomy:
         name = self.model.body(link).name
         if not name:
             return None
-        sole = self.sole(link)
-        what = roles(self.data, joints, self.sole_place(link, sole), FORWARD)
-        return FoundLeg(side, names, tuple(what), name, sole)
+        return FoundLeg(side, names, self.roles(names, link), name, self.sole(link))
+
+    def roles(self, names: Sequence[str], foot: int) -> tuple[str, ...]:
+        """Return what each joint of a leg does.
+
+        Args:
+            names: of its joints, from the hip down.
+            foot: number of the link that its last joint moves.
+        """
+        joints = [self.model.joint(name).id for name in names]
+        place = self.sole_place(foot, self.sole(foot))
+        return tuple(roles(self.data, joints, place, FORWARD))
 
     def sole(self, body: int) -> Sole:
         """Return what of a foot touches the ground."""

@@ -1,6 +1,7 @@
 """A report on a robot's folder: what was found, what is missing, what its gait can do."""
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -78,11 +79,11 @@ def _found(anatomy: Anatomy) -> dict[str, Any]:
     ]
     legs = anatomy.legs()
     chains = {
-        side: {"joints": [_joint(anatomy, name) for name in leg.joints], "foot": leg.foot}
+        side: {"joints": _joints(anatomy, leg.joints, leg.foot), "foot": leg.foot}
         for side, leg in legs.items()
     }
     unlike = leg_faults(anatomy)
-    if len(legs) == 2:
+    if not unlike:
         unlike = anatomy.differences(legs["left"].joints, legs["right"].joints)
     return {
         "mass": {"total": float(sum(link["mass"] for link in links)), "links": links},
@@ -102,12 +103,19 @@ def _found(anatomy: Anatomy) -> dict[str, Any]:
     }
 
 
-def _joint(anatomy: Anatomy, name: str) -> dict[str, Any]:
+def _joints(anatomy: Anatomy, names: Sequence[str], foot: str) -> list[dict[str, Any]]:
+    """Return what is known of a leg's joints, from the hip down."""
+    what = anatomy.roles(names, anatomy.model.body(foot).id)
+    return [_joint(anatomy, name, role) for name, role in zip(names, what, strict=True)]
+
+
+def _joint(anatomy: Anatomy, name: str, role: str) -> dict[str, Any]:
     model = anatomy.model
     joint = model.joint(name).id
     limited = bool(model.jnt_limited[joint])
     return {
         "name": name,
+        "role": role,
         "axis": [round(float(value), 4) + 0.0 for value in anatomy.axis(joint)],
         "range": [float(value) for value in model.jnt_range[joint]] if limited else None,
     }
@@ -156,7 +164,7 @@ def _told(robot: Robot, anatomy: Anatomy, document: dict[str, Any]) -> dict[str,
     }
     return {
         "legs": {
-            side: {"joints": [_joint(anatomy, name) for name in leg.joints], "foot": leg.sole.link}
+            side: {"joints": _joints(anatomy, leg.joints, leg.sole.link), "foot": leg.sole.link}
             for side, leg in legs.items()
         },
         "unlike": anatomy.differences(legs["left"].joints, legs["right"].joints),
