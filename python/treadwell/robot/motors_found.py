@@ -12,11 +12,11 @@ ARM_SHARE = 0.25
 """What motors that are not a leg's have of that, where the model says nothing."""
 REFERENCE_MASS_KG, REFERENCE_LEG_M = 7.0, 0.25
 """Of the robot for which the stiffnesses below are: others by mass times length."""
-STIFF, STIFF_ANKLE = 150.0, 80.0
+STIFF = 150.0
 """N m/rad, of its legs' servos."""
 DAMPED = 0.02
 """Damping of a servo over its stiffness, s, at that size; longer by the root of the length."""
-SOFT, STIFFEST = 0.5, 3.0
+SOFT, STIFFEST = 0.8, 3.0
 """A servo of the model counts where it has between these shares of the rule's stiffness."""
 GIVES_RAD = 0.15
 """By how much other servos give way to their peak torque."""
@@ -176,8 +176,7 @@ class Fitting:
         said = [told] if told else []
         kp = torque / GIVES_RAD
         if role is not None:
-            kp = (STIFF_ANKLE if "ankle" in role else STIFF) * self._stiffer
-            kp = min(kp, torque / STIFFEST_RAD)
+            kp = min(STIFF * self._stiffer, torque / STIFFEST_RAD)
         kv = kp * DAMPED * self._scale**0.5
         if found.stiffness is not None and SOFT * kp <= found.stiffness <= STIFFEST * kp:
             kp, said = found.stiffness, [*said, "kp"]

@@ -13,7 +13,7 @@ from treadwell.trials.stairs import Climber, elements, levels
 from treadwell.trials.world import PUSH_S, TICK_S, Motion, Size, World
 
 WALKING_MPS: Final = 0.1
-SIDEWAYS_MPS: Final = 0.08
+SIDEWAYS_MPS: Final = 0.05
 TURNING_RADPS: Final = 0.25
 STARTS_S: Final = 0.5
 WALKS_S: Final = 8.0
