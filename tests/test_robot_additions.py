@@ -65,7 +65,7 @@ def _with(folder: Path, file: str, old: str, new: str) -> Path:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("[gait]", "[stand]\nleft_knee_pitch = 1.0\n[gait]", "stand: qrio.xml has a keyframe"),
+        ("[gait]", "[stand]\nknee = 1.0\n[gait]", "stand.knee: there is no such joint"),
         ("[gait]", "[ranges]\nneck_pan = [-1, 1]\n[gait]", "ranges.neck_pan: qrio.xml has a range"),
         ("[gait]", "[ranges]\nneck = [-1, 1]\n[gait]", "ranges.neck: there is no such joint"),
         ('site = "imu"', 'site = "imu"\nlink = "torso"', "imu.link: qrio.xml has a site 'imu'"),
@@ -109,7 +109,7 @@ def test_a_mounted_camera_looks_down_by_what_it_is_tipped(tmp_path: Path) -> Non
     assert up[2] > 0.8
 
 
-def test_a_model_without_physics_options_gets_the_testbeds_and_others_keep_theirs(
+def test_a_model_gets_the_testbeds_physics_but_for_what_it_says_itself(
     tmp_path: Path,
 ) -> None:
     robot = qrio_copy(tmp_path)
@@ -122,7 +122,10 @@ def test_a_model_without_physics_options_gets_the_testbeds_and_others_keep_their
     (robot / "qrio.xml").write_text(
         text[:begin] + '<option impratio="3"/>' + text[end:], encoding="utf-8"
     )
-    assert load_robot(robot).nominal.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
+    merged = load_robot(robot).nominal.opt
+    assert merged.impratio == 3.0
+    assert merged.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+    assert merged.noslip_iterations == 6
 
 
 def test_a_robot_that_has_nothing_to_be_seen_is_seen_as_what_collides(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ def check(folder: Path, *, walk: bool, template: bool, as_json: bool) -> int:
 
     Args:
         folder: the robot's.
-        walk: let it walk a metre, too.
+        walk: let it walk a metre, and then walk, turn, stop, be pushed and climb.
         template: write a draft of a `robot.toml` where there is none.
         as_json: write JSON instead of tables.
 
@@ -33,9 +33,11 @@ def check(folder: Path, *, walk: bool, template: bool, as_json: bool) -> int:
         document["fits"] = not document["problems"]
     if walk and document["fits"]:
         from treadwell.robot_trial import walk_a_metre
+        from treadwell.trials.table import table
 
-        write_message("walking a metre ...")
+        write_message("walking a metre, with all senses ...")
         document["walk"] = walk_a_metre(folder)
+        document["trials"] = table(folder, write_message)
     if as_json:
         write_json(document)
     else:
@@ -56,6 +58,8 @@ def _show(document: Mapping[str, Any]) -> None:
         walk = document["walk"]
         rows = [(key, _number(value)) for key, value in walk.items() if value is not None]
         write_table("a metre ahead", ("", ""), rows)
+    if "trials" in document:
+        _show_trials(document["trials"])
     for title, lines in (("notes", document["notes"]), ("problems", document["problems"])):
         if lines:
             write_table(title, ("",), [(line,) for line in lines])
@@ -90,6 +94,7 @@ def _show_legs(document: Mapping[str, Any]) -> None:
             rows.append(
                 (
                     joint["name"],
+                    joint["role"],
                     side,
                     " ".join(f"{value:g}" for value in joint["axis"]),
                     "none" if bounds is None else f"{bounds[0]:.2f} to {bounds[1]:.2f} rad",
@@ -98,7 +103,7 @@ def _show_legs(document: Mapping[str, Any]) -> None:
                     else "",
                 )
             )
-    write_table("legs, from the hip down", ("joint", "leg", "axis", "range", "motor"), rows)
+    write_table("legs, from the hip down", ("joint", "does", "leg", "axis", "range", "motor"), rows)
     soles = [
         (
             side,
@@ -186,6 +191,12 @@ def _show_gait(gait: Mapping[str, Any]) -> None:
         ("", "", ""),
         rows,
     )
+
+
+def _show_trials(rows: Sequence[Mapping[str, Any]]) -> None:
+    shown = [(row["task"], row["result"], row["why"] or "") for row in rows]
+    title = "what it does, by its walker alone: no camera, no map"
+    write_table(title, ("", "", "why no more"), shown)
 
 
 def _number(value: object) -> str:

@@ -11,6 +11,8 @@ from treadwell.errors import InputError
 from treadwell.limited import limited
 
 MESH_SUFFIXES = (".stl", ".obj")
+URDF_SUFFIX = ".urdf"
+MASSLESS = "; give that link an <inertial>, or a <geom> that has a mass"
 MOST_BESIDE = 2000
 """Files of a folder that are looked at."""
 
@@ -31,7 +33,9 @@ def compiled(spec: mujoco.MjSpec, what: str) -> mujoco.MjModel:
             warnings.simplefilter("ignore")
             model = spec.compile()
     except (ValueError, RuntimeError, MemoryError) as error:
-        raise InputError(f"{what}: MuJoCo cannot build it: {one_line(error)}") from None
+        line = one_line(error)
+        hint = MASSLESS if "mass and inertia" in line else ""
+        raise InputError(f"{what}: MuJoCo cannot build it: {line}{hint}") from None
     check_finite(model, what)
     return model
 
@@ -94,7 +98,9 @@ def build_files(path: str, what: str) -> bool:
 
 
 def read_spec(path: Path, what: str) -> mujoco.MjSpec:
-    """Return the specification of an MJCF file.
+    """Return the specification of an MJCF or a URDF file.
+
+    Of a URDF every link stays a link, and meshes are looked for by their names in its folder, too.
 
     Raises:
         InputError: MuJoCo cannot read it.
@@ -102,9 +108,26 @@ def read_spec(path: Path, what: str) -> mujoco.MjSpec:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            return mujoco.MjSpec.from_file(str(path))
+            spec = mujoco.MjSpec.from_file(str(path))
+            if path.suffix.lower() == URDF_SUFFIX:
+                _settle_urdf(spec, path.parent)
+            return spec
     except (ValueError, RuntimeError, MemoryError) as error:
         raise InputError(f"{what}: MuJoCo cannot read it: {one_line(error)}") from None
+
+
+def _settle_urdf(spec: mujoco.MjSpec, folder: Path) -> None:
+    """Keep a URDF's root a link of its own, leave out what is only seen, and find its meshes."""
+    spec.compiler.fusestatic = False
+    spec.compiler.discardvisual = True
+    meshes = list(spec.meshes)
+    if not meshes:
+        return
+    found = {path.name: path for path in sorted(folder.rglob("*")) if path.is_file()}
+    for mesh in meshes:
+        # Whatever package or folder it says: nothing outside of this one is read.
+        name = mesh.file.replace("\\", "/").rsplit("/", 1)[-1]
+        mesh.file = str(found[name].resolve()) if name in found else name
 
 
 def mesh_spec(path: Path) -> mujoco.MjSpec:

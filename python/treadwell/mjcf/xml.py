@@ -22,6 +22,7 @@ LARGEST_ASSET: Final = 50_000_000
 LARGEST_ASSETS: Final = 200_000_000
 """Bytes of all of them."""
 ROOTS: Final = ("mujoco", "mujocoinclude")
+URDF_ROOT: Final = "robot"
 REFUSED: Final = {"extension", "plugin", "composite", "flexcomp", "flex", "skin"}
 FILE_ATTRIBUTES: Final = (
     "file",
@@ -118,8 +119,9 @@ def check_xml(path: Path, folder: Path, what: str) -> None:
 def _check_file(path: Path, copies: int, bounds: _Bounds) -> list[tuple[Path, int]]:
     """Check a file alone; return what it includes, and how often."""
     root = _read(path, bounds.what)
-    if root.tag not in ROOTS:
-        bounds.fail(f"begins with <{str(root.tag)[:50]}>, must be <mujoco>")
+    allowed = (URDF_ROOT,) if path.suffix.lower() == ".urdf" else ROOTS
+    if root.tag not in allowed:
+        bounds.fail(f"begins with <{str(root.tag)[:50]}>, must be <{allowed[0]}>")
     places = [path.parent]
     for node in root.iter():
         places += [path.parent / node.attrib[k] for k in FOLDER_ATTRIBUTES if k in node.attrib]

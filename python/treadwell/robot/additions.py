@@ -4,7 +4,6 @@ Whatever the MJCF has of the robot counts. Only what it lacks is added, from tab
 then the whole is checked as if the MJCF had had it.
 """
 
-import math
 from pathlib import Path
 
 import mujoco
@@ -13,17 +12,17 @@ from numpy.typing import NDArray
 
 from treadwell.errors import InputError
 from treadwell.mjcf.build import compiled
+from treadwell.robot.anatomy import nearest_to_zero
+from treadwell.robot.camera_added import add_camera
 from treadwell.robot.file import LegTable, RobotFile
+from treadwell.robot.keyframes import STAND
+from treadwell.robot.loops import ties_of
+from treadwell.robot.model_gaps import fill_gaps, let_feet_touch, straighten_ties
+from treadwell.robot.surfaces import SEEN_GROUPS
+from treadwell.robot.turned_links import turn_foot
 
-STAND = "stand"
-"""Name of the keyframe in which the robot stands upright."""
-BASE = "base"
-"""Name that a free joint without one gets."""
 PHYSICS_STEP = 0.002
 """Of every simulation, s, whatever a model says: five steps are a control tick."""
-SEEN_GROUPS = 3
-"""Geoms of the groups below this are what a camera sees."""
-
 _CONTACT_FORCE_AND_PLACE = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE) | 1 << int(
     mujoco.mjtConDataField.mjCONDATA_POS
 )
@@ -41,18 +40,22 @@ def complete(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
     Raises:
         InputError: a table of `robot.toml` adds what the MJCF has, or to what it has not.
     """
-    _leave_out_world(spec)
-    _add_options(spec)
-    _name_base(spec)
+    fill_gaps(spec)
+    stand = _keyframe_angles(spec, file, toml)
+    legs = {"legs.left": file.legs.left, "legs.right": file.legs.right}
+    for key, leg in legs.items():
+        turn_foot(spec, leg, key, toml)
+    add_camera(spec, file, toml)
     _add_joint_numbers(spec, file, toml)
+    straighten_ties(spec, {j for group in file.motors.values() for j in group.joints}, str(toml))
     _replace_servos(spec, file)
     _add_imu(spec, file, toml)
-    _add_camera(spec, file, toml)
-    for leg in (file.legs.left, file.legs.right):
+    for leg in legs.values():
         _add_forces(spec, leg)
+    let_feet_touch(spec, {leg.sole.link for leg in legs.values()})
     _show_shapes(spec)
     # The last: for it, the rest is compiled.
-    _add_stand(spec, file, toml)
+    _add_stand(spec, file, stand, toml)
 
 
 def prepare(spec: mujoco.MjSpec) -> None:
@@ -78,35 +81,6 @@ def prepare(spec: mujoco.MjSpec) -> None:
     # The solver's rows of friction kept the sweeps against slip going: without them they would stop
     # before the soles are held.
     spec.option.noslip_tolerance = 0.0
-
-
-def _leave_out_world(spec: mujoco.MjSpec) -> None:
-    """Leave out what stands on the world and not on the robot, as the floor of a scene does."""
-    for geom in list(spec.worldbody.geoms):
-        spec.delete(geom)
-
-
-def _add_options(spec: mujoco.MjSpec) -> None:
-    """Give a model that says nothing of the physics what the robots of the testbed have.
-
-    With MuJoCo's own defaults a loaded sole creeps over the floor, which no sole does.
-    """
-    ours, bare = spec.option, mujoco.MjSpec().option
-    fields = ("integrator", "cone", "impratio", "noslip_iterations", "iterations", "solver")
-    if any(getattr(ours, field) != getattr(bare, field) for field in fields):
-        return
-    ours.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    ours.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    ours.impratio = 10.0
-    ours.noslip_iterations = 6
-    ours.iterations = 30
-    ours.ls_iterations = 20
-
-
-def _name_base(spec: mujoco.MjSpec) -> None:
-    joints = list(spec.joints)
-    if joints and joints[0].type == mujoco.mjtJoint.mjJNT_FREE and not joints[0].name:
-        joints[0].name = BASE
 
 
 def _add_joint_numbers(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
@@ -141,40 +115,61 @@ def _is_limited(joint: mujoco.MjsJoint, spec: mujoco.MjSpec) -> bool:
 def _replace_servos(spec: mujoco.MjSpec, file: RobotFile) -> None:
     """Put a torque motor on each joint of `[motors]` that has none, or a servo of MuJoCo's.
 
-    The testbed has servos of its own: what drives the model is torque alone.
+    The testbed has servos of its own: what drives the model is torque alone. An actuator that
+    drives no joint of `[motors]` goes, too: nothing would tell it what to do.
     """
-    # One that another one's motor turns has none of its own.
-    driven = {actuator.target for actuator in spec.actuators if _is_motor(actuator)}
-    driven |= {tie.name1 for tie in spec.equalities if tie.type == mujoco.mjtEq.mjEQ_JOINT}
     peaks = {
         joint: motors.peak_torque for motors in file.motors.values() for joint in motors.joints
     }
-    wanted = [joint for joint in peaks if joint not in driven and spec.joint(joint) is not None]
-    if not wanted:
-        return
+    # One that another one's motor turns has none of its own.
+    tied = {tie.name1 for tie in spec.equalities if tie.type == mujoco.mjtEq.mjEQ_JOINT}
+    kept: set[str] = set()
+    changed = False
     for actuator in list(spec.actuators):
-        if actuator.target in wanted and actuator.trntype == mujoco.mjtTrn.mjTRN_JOINT:
+        name = actuator.target
+        if name in peaks and name not in kept and _is_plain_motor(actuator, spec):
+            kept.add(name)
+        elif name in peaks or not _moves_joint(actuator):
             spec.delete(actuator)
-    for joint in wanted:
+            changed = True
+    for joint in peaks:
+        if joint in kept or joint in tied or spec.joint(joint) is None:
+            continue
         motor = spec.add_actuator(name=f"{joint} motor", target=joint)
         motor.trntype = mujoco.mjtTrn.mjTRN_JOINT
         motor.set_to_motor()
         motor.ctrllimited = mujoco.mjtLimited.mjLIMITED_TRUE
         motor.ctrlrange = [-peaks[joint], peaks[joint]]
         motor.forcelimited = mujoco.mjtLimited.mjLIMITED_FALSE
-    # What keyframes say of the controls no longer fits.
-    for key in list(spec.keys):
-        key.ctrl = []
-        key.act = []
+        # The servo has this limit.
+        spec.joint(joint).actfrclimited = mujoco.mjtLimited.mjLIMITED_FALSE
+        changed = True
+    if changed:  # what keyframes say of the controls no longer fits
+        for key in list(spec.keys):
+            key.ctrl = []
+            key.act = []
 
 
-def _is_motor(actuator: mujoco.MjsActuator) -> bool:
-    """Whether an actuator is a plain source of torque; `check_robot` looks at its gear."""
+def _moves_joint(actuator: mujoco.MjsActuator) -> bool:
+    kinds = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
+    return actuator.trntype in kinds
+
+
+def _is_plain_motor(actuator: mujoco.MjsActuator, spec: mujoco.MjSpec) -> bool:
+    """Whether an actuator is a source of torque with gear 1 and a bound on its control."""
+    bounded = actuator.ctrllimited == mujoco.mjtLimited.mjLIMITED_TRUE or (
+        actuator.ctrllimited == mujoco.mjtLimited.mjLIMITED_AUTO
+        and bool(spec.compiler.autolimits)
+        and actuator.ctrlrange[0] < actuator.ctrlrange[1]
+    )
     return bool(
-        actuator.trntype == mujoco.mjtTrn.mjTRN_JOINT
+        bounded
+        and actuator.trntype == mujoco.mjtTrn.mjTRN_JOINT
         and actuator.gaintype == mujoco.mjtGain.mjGAIN_FIXED
         and actuator.biastype == mujoco.mjtBias.mjBIAS_NONE
         and actuator.dyntype == mujoco.mjtDyn.mjDYN_NONE
+        and actuator.gear[0] == 1.0
+        and actuator.gainprm[0] == 1.0
     )
 
 
@@ -192,24 +187,6 @@ def _add_imu(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
             sensor = spec.add_sensor(name=name, type=kind)
             sensor.objtype = mujoco.mjtObj.mjOBJ_SITE
             sensor.objname = imu.site
-
-
-def _add_camera(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
-    mount = file.camera.mount
-    if mount is None:
-        return
-    if spec.camera(file.camera.name) is not None:
-        raise InputError(
-            f"{toml}: camera.mount: {file.robot.model} has a camera {file.camera.name!r}"
-        )
-    link = _body(spec, mount.link, "camera.mount.link", toml)
-    # MuJoCo's camera looks along its -z with y up: x to the robot's right, then tipped down.
-    sin, cos = math.sin(mount.down), math.cos(mount.down)
-    axes = np.array([[0.0, -1.0, 0.0], [sin, 0.0, cos], [-cos, 0.0, sin]])
-    quat = np.empty(4)
-    mujoco.mju_mat2Quat(quat, axes.T.reshape(-1))
-    fovy = math.degrees(file.camera.vertical_fov)
-    link.add_camera(name=file.camera.name, pos=mount.position, quat=quat, fovy=fovy)
 
 
 def _add_forces(spec: mujoco.MjSpec, leg: LegTable) -> None:
@@ -230,27 +207,56 @@ def _show_shapes(spec: mujoco.MjSpec) -> None:
             geom.group = 2
 
 
-def _add_stand(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
-    """Add the keyframe: upright, the soles on the ground, the joints as `[stand]` says."""
-    if not file.stand:
-        return
+def _keyframe_angles(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> dict[str, float] | None:
+    """Return the angles of the keyframe `stand`, rad, where it is replaced; None where it stays.
+
+    The keyframes are taken out then: joints may be added that they do not have.
+    """
+    unit = file.camera.mount is not None and file.camera.mount.pan_tilt
+    if not file.stand and not unit:
+        return None
+    angles = {}
     if any(key.name == STAND for key in spec.keys):
-        raise InputError(f"{toml}: stand: {file.robot.model} has a keyframe {STAND!r}")
+        model = compiled(spec, str(toml))
+        qpos = model.key(STAND).qpos
+        for joint in range(1, model.njnt):
+            angles[model.joint(joint).name] = float(qpos[model.jnt_qposadr[joint]])
+    elif not file.stand:
+        return None  # `check_robot` says what is missing
+    for key in list(spec.keys):
+        spec.delete(key)
+    return angles
+
+
+def _add_stand(
+    spec: mujoco.MjSpec, file: RobotFile, keyframe: dict[str, float] | None, toml: Path
+) -> None:
+    """Add the keyframe: upright, the soles on the ground, the joints as `[stand]` says.
+
+    A keyframe `stand` of the model counts for the joints that `[stand]` does not name.
+    """
+    if keyframe is None:
+        return
     model = compiled(spec, str(toml))
     for name in file.stand:
         if mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) < 1:
             raise InputError(f"{toml}: stand.{name}: there is no such joint in {file.robot.model}")
-    spec.add_key(name=STAND, qpos=_standing(model, file))
+    spec.add_key(name=STAND, qpos=_standing(model, file, {**keyframe, **file.stand}))
 
 
-def _standing(model: mujoco.MjModel, file: RobotFile) -> NDArray[np.float64]:
+def _standing(
+    model: mujoco.MjModel, file: RobotFile, angles: dict[str, float]
+) -> NDArray[np.float64]:
     data = mujoco.MjData(model)
     if model.njnt == 0 or model.jnt_type[0] != mujoco.mjtJoint.mjJNT_FREE:
         return np.array(data.qpos)  # `check_robot` says so
+    data.qpos[:] = nearest_to_zero(model)
     data.qpos[:7] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
-    data.qpos[7:] = 0.0
-    for name, angle in file.stand.items():
+    for name, angle in angles.items():
         data.qpos[model.joint(name).qposadr[0]] = angle
+    for follower, tie in ties_of(model).items():
+        leader = data.qpos[model.jnt_qposadr[tie.leader]]
+        data.qpos[model.jnt_qposadr[follower]] = tie.offset + tie.ratio * leader
     mujoco.mj_kinematics(model, data)
     heights = []
     for leg in (file.legs.left, file.legs.right):

@@ -10,6 +10,7 @@ from treadwell.robot.tables import (
     Disparity,
     Length,
     Name,
+    Orientation,
     Pixels,
     PixelStep,
     Position,
@@ -81,14 +82,22 @@ class StructuredLightTable(Table):
 
 
 class MountTable(Table):
-    """`[camera.mount]`: where a camera goes that the MJCF lacks. It looks along the link's x."""
+    """`[camera.mount]`: where a camera goes that the MJCF lacks. It looks along the mount's x."""
 
     link: Name
     """The link that carries it."""
     position: Position
     """The lens in the link's frame, m."""
+    orientation: Orientation = (1.0, 0.0, 0.0, 0.0)
+    """The mount's axes (ahead, left, up) in the link's frame, quaternion w, x, y, z; default: the
+    link's axes.
+    """
     down: Angle = 0.0
     """How far it is tipped down, rad."""
+    pan_tilt: bool = False
+    """Whether it sits on a small unit of its own (0.1 kg) that turns it, by the joints `camera_pan`
+    and `camera_tilt`: for a robot without a head that does both.
+    """
 
 
 class CameraTable(Table):

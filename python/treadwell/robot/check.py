@@ -1,20 +1,22 @@
 """Whether a `robot.toml` fits its MJCF: names that exist, a body that can be driven."""
 
 import math
-from collections.abc import Iterable
 from pathlib import Path
 
 import mujoco
 import numpy as np
 
 from treadwell.errors import InputError
+from treadwell.robot.check_motors import Lookup, check_motors, legs_of
 from treadwell.robot.file import LegTable, RobotFile
-from treadwell.robot.followers import followers, is_tie
+from treadwell.robot.followers import is_tie
 
 SQUARE_PIXELS = 0.02
 """How far the focal lengths of the two fields of view may differ, as a share."""
 FORCE_AND_PLACE = 6
 """Numbers of a contact sensor that tells a force and where it acts."""
+STEEP = 0.8
+"""A camera that looks more down than this, as a sine, looks at the ground, wherever it faces."""
 FLAT = 1e-3
 """How far the soles may be from the ground in the keyframe, m, and from level, rad."""
 
@@ -34,6 +36,7 @@ def check_robot(toml: Path, mjcf: Path, model: mujoco.MjModel, file: RobotFile) 
     _check_links(mjcf, model)
     _check_joints(mjcf, model)
     _check_ties(mjcf, model)
+    check_motors(Lookup(toml, mjcf, model, file))
     _Checker(toml, mjcf, model, file).check()
 
 
@@ -77,6 +80,8 @@ def _check_ties(mjcf: Path, model: mujoco.MjModel) -> None:
     driven = {int(model.actuator_trnid[i, 0]) for i in range(model.nu)}
     tied = [int(joint) for joint in model.eq_obj1id]
     for i in range(model.neq):
+        if model.eq_type[i] != mujoco.mjtEq.mjEQ_JOINT:
+            continue  # what holds links together is the physics' own
         fits = is_tie(model, i) and tied.count(tied[i]) == 1
         if not fits or tied[i] in driven or int(model.eq_obj2id[i]) not in driven:
             raise InputError(
@@ -85,25 +90,16 @@ def _check_ties(mjcf: Path, model: mujoco.MjModel) -> None:
             )
 
 
-class _Checker:
+class _Checker(Lookup):
     """Looks up what `robot.toml` names."""
-
-    def __init__(self, toml: Path, mjcf: Path, model: mujoco.MjModel, file: RobotFile) -> None:
-        self.toml, self.mjcf, self.model, self.file = toml, mjcf, model, file
-        self.joints = {model.joint(i).name: i for i in range(1, model.njnt)}
-        self.links = {model.body(i).name: i for i in range(1, model.nbody)}
-        self.sites = {model.site(i).name: i for i in range(model.nsite)}
-        self.sensors = {model.sensor(i).name: i for i in range(model.nsensor)}
-        self.cameras = {model.camera(i).name: i for i in range(model.ncam)}
 
     def check(self) -> None:
         file = self.file
-        self._find("body.torso", file.body.torso, self.links, "link")
+        self.find("body.torso", file.body.torso, self.links, "link")
         for joint in file.trunk.joints:
-            self._find("trunk.joints", joint, self.joints, "joint")
-        self._check_motors()
+            self.find("trunk.joints", joint, self.joints, "joint")
         self._check_stand()
-        for side, leg in (("left", file.legs.left), ("right", file.legs.right)):
+        for side, leg in legs_of(file):
             self._check_leg(f"legs.{side}", leg)
         self._check_arms("arms.rest", file.arms.rest)
         self._check_arms("arms.raised", file.arms.raised)
@@ -112,84 +108,28 @@ class _Checker:
 
     def _check_arms(self, table: str, angles: dict[str, float]) -> None:
         for joint, angle in angles.items():
-            number = self._find(table, joint, self.joints, "joint")
+            number = self.find(table, joint, self.joints, "joint")
             low, high = self.model.jnt_range[number]
             if not low <= angle <= high:
-                self._fail(f"{table}.{joint}", f"must be within {low:g} to {high:g}, got {angle}")
-
-    def _fail(self, key: str, message: str) -> None:
-        raise InputError(f"{self.toml}: {key}: {message}")
-
-    def _find(self, key: str, name: str, known: dict[str, int], kind: str) -> int:
-        if name not in known:
-            self._fail(
-                key,
-                f"there is no {kind} {name!r} in {self.mjcf.name}; it has {_list(known)}",
-            )
-        return known[name]
-
-    def _check_motors(self) -> None:
-        model = self.model
-        actuators: dict[int, int] = {}
-        for i in range(model.nu):
-            name, joint = model.actuator(i).name, int(model.actuator_trnid[i, 0])
-            on_joint = model.actuator_trntype[i] == mujoco.mjtTrn.mjTRN_JOINT
-            torque = (
-                model.actuator_gaintype[i] == mujoco.mjtGain.mjGAIN_FIXED
-                and model.actuator_biastype[i] == mujoco.mjtBias.mjBIAS_NONE
-                and model.actuator_dyntype[i] == mujoco.mjtDyn.mjDYN_NONE
-                and model.actuator_gainprm[i, 0] == 1.0
-                and model.actuator_gear[i, 0] == 1.0
-            )
-            if not on_joint or not torque or joint in actuators:
-                raise InputError(
-                    f"{self.mjcf}: actuator {name!r} must be a <motor> of gear 1 on its own joint"
-                )
-            actuators[joint] = i
-        groups: dict[str, str] = {}
-        tied = followers(model)
-        for group, motors in self.file.motors.items():
-            for joint_name in motors.joints:
-                key = f"motors.{group}.joints"
-                joint = self._find(key, joint_name, self.joints, "joint")
-                if joint_name in groups:
-                    self._fail(key, f"joint {joint_name!r} is in motors.{groups[joint_name]} too")
-                groups[joint_name] = group
-                if joint in tied:
-                    self._fail(key, f"joint {joint_name!r} has no motor of its own")
-                if joint not in actuators:
-                    raise InputError(f"{self.mjcf}: joint {joint_name!r} has no <motor>")
-                low, high = model.actuator_ctrlrange[actuators[joint]]
-                peak = motors.peak_torque
-                limited = model.actuator_ctrllimited[actuators[joint]]
-                if not limited or not (math.isclose(high, peak) and math.isclose(low, -peak)):
-                    self._fail(
-                        f"motors.{group}.peak_torque",
-                        f"is {peak:g}, but the motor of {joint_name!r} in {self.mjcf.name} "
-                        f"has a ctrlrange of {low:g} to {high:g}",
-                    )
-        driven = [name for name, joint in self.joints.items() if joint not in tied]
-        missing = [joint for joint in driven if joint not in groups]
-        if missing:
-            self._fail("motors", f"no group has the joints {_list(missing)}")
+                self.fail(f"{table}.{joint}", f"must be within {low:g} to {high:g}, got {angle}")
 
     def _check_leg(self, key: str, leg: LegTable) -> None:
         model = self.model
         bodies = []
         for name in leg.joints:
-            joint = self._find(f"{key}.joints", name, self.joints, "joint")
+            joint = self.find(f"{key}.joints", name, self.joints, "joint")
             bodies.append(int(model.jnt_bodyid[joint]))
         for above, below, name in zip(bodies, bodies[1:], leg.joints[1:], strict=False):
             if above == below or not self._carries(above, below):
-                self._fail(
+                self.fail(
                     f"{key}.joints",
                     f"must be a chain from the hip down, but {name!r} "
                     f"does not follow the one before it in {self.mjcf.name}",
                 )
-        link = self._find(f"{key}.sole.link", leg.sole.link, self.links, "link")
+        link = self.find(f"{key}.sole.link", leg.sole.link, self.links, "link")
         if not self._carries(bodies[-1], link):
             end = model.body(bodies[-1]).name
-            self._fail(
+            self.fail(
                 f"{key}.sole.link",
                 f"must be the leg's last, {end!r}, or fixed to it, got {leg.sole.link!r}",
             )
@@ -199,11 +139,12 @@ class _Checker:
         mujoco.mj_kinematics(model, data)
         rotation = data.xmat[link].reshape(3, 3)
         height = float(data.xpos[link][2] + rotation[2] @ np.array(leg.sole.position))
-        if abs(height) > FLAT or math.hypot(rotation[2, 0], rotation[2, 1]) > FLAT:
-            self._fail(
+        tilt = math.hypot(rotation[2, 0], rotation[2, 1])
+        if abs(height) > FLAT or tilt > FLAT:
+            self.fail(
                 f"{key}.sole",
-                f"must lie flat on the ground in the keyframe 'stand' of {self.mjcf.name}, "
-                f"its centre is {1e3 * height:.1f} mm above it",
+                f"must lie flat on the ground in {self._stance()}, "
+                f"its centre is {1e3 * height:.1f} mm above it, and it is tilted by {tilt:.3f} rad",
             )
 
     def _carries(self, above: int, below: int) -> bool:
@@ -212,11 +153,17 @@ class _Checker:
             below = int(self.model.body_parentid[below])
         return below == above
 
+    def _stance(self) -> str:
+        """Return which place says how the robot stands."""
+        if self.file.stand:
+            return "the stance of [stand]"
+        return f"the keyframe 'stand' of {self.mjcf.name}"
+
     def _check_forces(self, key: str, leg: LegTable) -> None:
         kind = mujoco.mjtSensor.mjSENS_CONTACT
         sensor = self._check_sensor(key, leg.forces, kind, "contact", None)
         if self.model.sensor_dim[sensor] != FORCE_AND_PLACE:
-            self._fail(key, f"sensor {leg.forces!r} must have num 1 and data 'force pos'")
+            self.fail(key, f"sensor {leg.forces!r} must have num 1 and data 'force pos'")
 
     def _check_stand(self) -> None:
         model = self.model
@@ -229,6 +176,8 @@ class _Checker:
             low, high = model.jnt_range[joint]
             angle = angles[joint - 1]
             if not low <= angle <= high:
+                if name in self.file.stand:
+                    self.fail(f"stand.{name}", f"must be within {low:g} to {high:g}, got {angle:g}")
                 raise InputError(
                     f"{self.mjcf}: keyframe 'stand': joint {name!r} must be within "
                     f"{low:g} to {high:g}, got {angle:g}"
@@ -236,7 +185,7 @@ class _Checker:
 
     def _check_imu(self) -> None:
         imu = self.file.imu
-        site = self._find("imu.site", imu.site, self.sites, "site")
+        site = self.find("imu.site", imu.site, self.sites, "site")
         self._check_sensor("imu.gyro", imu.gyro, mujoco.mjtSensor.mjSENS_GYRO, "gyro", site)
         kind = mujoco.mjtSensor.mjSENS_ACCELEROMETER
         self._check_sensor("imu.accelerometer", imu.accelerometer, kind, "accelerometer", site)
@@ -244,19 +193,36 @@ class _Checker:
     def _check_sensor(
         self, key: str, name: str, kind: mujoco.mjtSensor, word: str, site: int | None
     ) -> int:
-        sensor = self._find(key, name, self.sensors, "sensor")
+        sensor = self.find(key, name, self.sensors, "sensor")
         if self.model.sensor_type[sensor] != kind:
-            self._fail(key, f"sensor {name!r} of {self.mjcf.name} must be a <{word}>")
+            self.fail(key, f"sensor {name!r} of {self.mjcf.name} must be a <{word}>")
         if site is not None and self.model.sensor_objid[sensor] != site:
-            self._fail(key, f"sensor {name!r} of {self.mjcf.name} must sit on the site imu.site")
+            self.fail(key, f"sensor {name!r} of {self.mjcf.name} must sit on the site imu.site")
         return sensor
+
+    def _check_view(self, camera: int) -> None:
+        """Refuse a camera that looks backwards, or up, in the stance."""
+        data = mujoco.MjData(self.model)
+        mujoco.mj_resetDataKeyframe(self.model, data, self.model.key("stand").id)
+        mujoco.mj_kinematics(self.model, data)
+        mujoco.mj_camlight(self.model, data)
+        link = self.model.body(self.file.legs.left.sole.link).id
+        ahead = data.xmat[link].reshape(3, 3)[:, 0]
+        view = -data.cam_xmat[camera].reshape(3, 3)[:, 2]
+        if float(view @ ahead) <= 0.0 and view[2] > -STEEP:
+            where = "backwards" if view[2] < STEEP else "up"
+            self.fail(
+                "camera.name",
+                f"camera {self.file.camera.name!r} looks {where} in the stance; give it a "
+                "[camera.mount], or turn it in the model",
+            )
 
     def _check_camera(self) -> None:
         file, model = self.file, self.model
-        camera = self._find("camera.name", file.camera.name, self.cameras, "camera")
+        camera = self.find("camera.name", file.camera.name, self.cameras, "camera")
         link = int(model.cam_bodyid[camera])
         if link == 0:
-            self._fail("camera.name", f"camera {file.camera.name!r} must be on a link of the robot")
+            self.fail("camera.name", f"camera {file.camera.name!r} must be on a link of the robot")
         above = set()
         while link > 0:
             above.add(link)
@@ -264,18 +230,15 @@ class _Checker:
         for key, name in (("head.pan", file.head.pan), ("head.tilt", file.head.tilt)):
             if name is None:
                 continue
-            joint = self._find(key, name, self.joints, "joint")
+            joint = self.find(key, name, self.joints, "joint")
             if int(model.jnt_bodyid[joint]) not in above:
-                self._fail(key, f"joint {name!r} does not move the camera")
+                self.fail(key, f"joint {name!r} does not move the camera")
+        self._check_view(camera)
         horizontal = 0.5 * file.camera.width / math.tan(0.5 * file.camera.horizontal_fov)
         vertical = 0.5 * file.camera.height / math.tan(0.5 * file.camera.vertical_fov)
         if abs(horizontal / vertical - 1.0) > SQUARE_PIXELS:
-            self._fail(
+            self.fail(
                 "camera",
                 "pixels must be square, but the fields of view give focal lengths of "
                 f"{horizontal:.1f} pixels across and {vertical:.1f} down",
             )
-
-
-def _list(names: Iterable[str]) -> str:
-    return ", ".join(names) or "none"

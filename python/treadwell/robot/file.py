@@ -19,6 +19,7 @@ from treadwell.robot.tables import (
     Length,
     LengthError,
     Name,
+    Orientation,
     Position,
     RateError,
     Share,
@@ -36,8 +37,8 @@ class RobotTable(Table):
     """The robot's name: its folder's."""
     description: str = ""
     """One line for `treadwell list robots`."""
-    model: Annotated[str, StringConstraints(pattern=r"^[\w.-]+\.xml$")]
-    """The MJCF file in the same folder."""
+    model: Annotated[str, StringConstraints(pattern=r"^[\w.-]+\.(xml|urdf)$")]
+    """The MJCF or URDF file in the same folder."""
 
 
 class BodyTable(Table):
@@ -68,6 +69,10 @@ class SoleTable(Table):
     """The link that carries it."""
     position: Position
     """Its centre in the link's frame, on the ground, m."""
+    orientation: Orientation | None = None
+    """Where the link's axes are not ahead, left and up while the sole is level: those axes in the
+    link's frame, quaternion w, x, y, z. The link is turned by it, and `position` is in those axes.
+    """
     length: Length
     """Extent forward, m."""
     width: Length
@@ -236,8 +241,8 @@ class RobotFile(Table):
     robot: RobotTable
     """Who it is."""
     stand: dict[Name, Angle] = Field(default_factory=dict)
-    """Angles of the upright stance, rad, 0 for the joints that are not named; default: the MJCF's
-    keyframe.
+    """Angles of the upright stance, rad; joints that are not named are as in the MJCF's keyframe
+    `stand`, or else at 0 or the end of their range that is nearest to it.
     """
     ranges: dict[Name, tuple[Angle, Angle]] = Field(default_factory=dict)
     """Least and largest angle of joints whose range the MJCF does not have, rad."""

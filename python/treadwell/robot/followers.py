@@ -5,6 +5,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
+
 class Tie(NamedTuple):
     """How a joint follows the one whose motor turns it, by gears or rods.
 

@@ -16,11 +16,12 @@ from treadwell.data import robot_names as robot_names
 from treadwell.errors import InputError
 from treadwell.mjcf.build import check_builds, compiled, read_spec
 from treadwell.mjcf.xml import check_xml
-from treadwell.robot.additions import STAND, complete, prepare
+from treadwell.robot.additions import complete, prepare
 from treadwell.robot.check import check_robot
 from treadwell.robot.description import describe
 from treadwell.robot.file import MotorsTable, RobotFile
 from treadwell.robot.followers import Tie, ties
+from treadwell.robot.keyframes import STAND
 from treadwell.robot.motor_limits import MotorLimits, rotors
 from treadwell.robot.reading import read_robot_file
 from treadwell.scenario.messages import shortened

@@ -1,6 +1,7 @@
 """A report on a robot's folder: what was found, what is missing, what its gait can do."""
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -8,13 +9,15 @@ import mujoco
 import numpy as np
 
 from treadwell.errors import InputError
-from treadwell.mjcf.build import compiled
 from treadwell.robot.anatomy import Anatomy, nameless
 from treadwell.robot.file import SoleTable
-from treadwell.robot.load import Robot, load_folder, robot_spec
+from treadwell.robot.leg_faults import leg_faults
+from treadwell.robot.leg_loads import leg_loads, too_weak
+from treadwell.robot.load import Robot, load_folder
+from treadwell.robot.model_file import compile_alone, find_model
 from treadwell.robot.reach import Reach, Rise
 from treadwell.robot.reading import required_keys
-from treadwell.scenario.loading import read_toml
+from treadwell.robot.soles import Sole
 
 SCHEMA = "treadwell.robot/1"
 SOLE_APART_M = 0.006
@@ -34,7 +37,7 @@ def report_on(folder: Path) -> dict[str, Any]:
     """
     if not folder.is_dir():
         raise InputError(f"{folder}: there is no such folder")
-    mjcf = find_mjcf(folder)
+    mjcf = find_model(folder)
     bare = compile_alone(mjcf)
     document: dict[str, Any] = {
         "schema": SCHEMA,
@@ -58,43 +61,13 @@ def report_on(folder: Path) -> dict[str, Any]:
     document |= _found(anatomy)
     if robot is not None:
         document |= _told(robot, anatomy, document)
+        document["problems"] += too_weak(document["loads"])
         try:
             document["gait"] = _gait(robot)
         except InputError as error:
             document["problems"] += str(error).splitlines()
     document["fits"] = not document["problems"]
     return document
-
-
-def find_mjcf(folder: Path) -> Path:
-    """Return the MJCF of a folder: the one that `robot.toml` names, or else the only one.
-
-    Raises:
-        InputError: there is none, or no telling which.
-    """
-    try:
-        name = read_toml(folder / "robot.toml")["robot"]["model"]
-        if isinstance(name, str) and (folder / Path(name).name).is_file():
-            return folder / Path(name).name
-    except (OSError, ValueError, KeyError, TypeError, InputError):
-        pass  # whoever reads the file for what it says tells what is wrong with it
-    files = sorted(folder.glob("*.xml"))
-    same = [file for file in files if file.stem == folder.resolve().name]
-    if len(files) == 1 or same:
-        return (same or files)[0]
-    raise InputError(
-        f"{folder}: has {'no MJCF (*.xml)' if not files else f'{len(files)} MJCF files'}; name "
-        f"the robot's {folder.resolve().name}.xml, or say [robot] model = in a robot.toml"
-    )
-
-
-def compile_alone(mjcf: Path) -> mujoco.MjModel:
-    """Compile an MJCF as it is.
-
-    Raises:
-        InputError: MuJoCo cannot.
-    """
-    return compiled(robot_spec(mjcf.parent, mjcf), str(mjcf))
 
 
 def _found(anatomy: Anatomy) -> dict[str, Any]:
@@ -106,18 +79,18 @@ def _found(anatomy: Anatomy) -> dict[str, Any]:
     ]
     legs = anatomy.legs()
     chains = {
-        side: {"joints": [_joint(anatomy, name) for name in leg.joints], "foot": leg.foot}
+        side: {"joints": _joints(anatomy, leg.joints, leg.foot), "foot": leg.foot}
         for side, leg in legs.items()
     }
-    unlike = ["there are no two legs of six named hinges, one on each side"]
-    if len(legs) == 2:
+    unlike = leg_faults(anatomy)
+    if not unlike:
         unlike = anatomy.differences(legs["left"].joints, legs["right"].joints)
     return {
         "mass": {"total": float(sum(link["mass"] for link in links)), "links": links},
         "legs": chains,
         "mirrored": not unlike,
         "unlike": unlike,
-        "soles": {side: _sole(*leg.sole) for side, leg in legs.items()},
+        "soles": {side: _sole(leg.sole) for side, leg in legs.items()},
         "actuators": [_actuator(model, number) for number in range(model.nu)],
         "cameras": [model.camera(number).name for number in range(model.ncam)],
         "sites": [model.site(number).name for number in range(model.nsite)],
@@ -130,19 +103,27 @@ def _found(anatomy: Anatomy) -> dict[str, Any]:
     }
 
 
-def _joint(anatomy: Anatomy, name: str) -> dict[str, Any]:
+def _joints(anatomy: Anatomy, names: Sequence[str], foot: str) -> list[dict[str, Any]]:
+    """Return what is known of a leg's joints, from the hip down."""
+    what = anatomy.roles(names, anatomy.model.body(foot).id)
+    return [_joint(anatomy, name, role) for name, role in zip(names, what, strict=True)]
+
+
+def _joint(anatomy: Anatomy, name: str, role: str) -> dict[str, Any]:
     model = anatomy.model
     joint = model.joint(name).id
     limited = bool(model.jnt_limited[joint])
     return {
         "name": name,
+        "role": role,
         "axis": [round(float(value), 4) + 0.0 for value in anatomy.axis(joint)],
         "range": [float(value) for value in model.jnt_range[joint]] if limited else None,
     }
 
 
-def _sole(position: tuple[float, float, float], length: float, width: float) -> dict[str, Any]:
-    return {"position": [round(v, 5) for v in position], "length": length, "width": width}
+def _sole(sole: Sole) -> dict[str, Any]:
+    position = [round(value, 5) for value in sole.position]
+    return {"position": position, "length": sole.length, "width": sole.width}
 
 
 def _actuator(model: mujoco.MjModel, number: int) -> dict[str, Any]:
@@ -168,7 +149,7 @@ def _told(robot: Robot, anatomy: Anatomy, document: dict[str, Any]) -> dict[str,
         if apart > SOLE_APART_M:
             document["notes"].append(
                 f"legs.{side}.sole: differs by {1e3 * apart:.0f} mm from what touches the ground, "
-                f"{1e3 * seen[1]:.0f} x {1e3 * seen[2]:.0f} mm"
+                f"{1e3 * seen.length:.0f} x {1e3 * seen.width:.0f} mm"
             )
     data = mujoco.MjData(robot.nominal)
     data.qpos[:] = robot.stand_qpos
@@ -183,7 +164,7 @@ def _told(robot: Robot, anatomy: Anatomy, document: dict[str, Any]) -> dict[str,
     }
     return {
         "legs": {
-            side: {"joints": [_joint(anatomy, name) for name in leg.joints], "foot": leg.sole.link}
+            side: {"joints": _joints(anatomy, leg.joints, leg.sole.link), "foot": leg.sole.link}
             for side, leg in legs.items()
         },
         "unlike": anatomy.differences(legs["left"].joints, legs["right"].joints),
@@ -198,6 +179,7 @@ def _told(robot: Robot, anatomy: Anatomy, document: dict[str, Any]) -> dict[str,
             }
             for order, name in enumerate(robot.joints)
         ],
+        "loads": leg_loads(robot, data),
         "camera": {
             "name": file.camera.name,
             "link": robot.nominal.body(int(robot.nominal.cam_bodyid[camera])).name,
@@ -232,9 +214,9 @@ def _ahead(robot: Robot, data: mujoco.MjData) -> float:
     return float(data.subtree_com[1][0]) - middle
 
 
-def _apart(told: SoleTable, seen: tuple[tuple[float, float, float], float, float]) -> float:
+def _apart(told: SoleTable, seen: Sole) -> float:
     """Return the largest distance between the edges of two rectangles, m."""
-    position, length, width = seen
+    position, length, width = seen.position, seen.length, seen.width
     ends = []
     for centre, size, other, extent in (
         (told.position[0], told.length, position[0], length),

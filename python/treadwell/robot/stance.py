@@ -1,64 +1,164 @@
-"""A stance for a robot whose MJCF has none: on bent knees, the weight over the soles' middle."""
+"""A stance for walking: on bent knees, the soles level and under the centre of mass, arms down."""
+
+from collections.abc import Mapping
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
-from treadwell.robot.additions import STAND
-from treadwell.robot.anatomy import Anatomy, FoundLeg
+from treadwell.robot.anatomy import FORWARD, Anatomy, FoundLeg, nearest_to_zero, place_of
+from treadwell.robot.bearing import load_on
+from treadwell.robot.joint_roles import ANKLE_PITCH, HIP_PITCH, HIP_YAW, KNEE
 
-KNEE_RAD = 1.0
-"""Bend of the knees in the stance."""
+Floats = NDArray[np.float64]
+
+KNEE_RADS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
+"""Bends of the knees in the stance: the first that the motors bear easily."""
+EASY_SHARE = 0.5
+"""Of the peak torque, on one leg."""
+ROUNDED = 5
+ROUNDS, STEPS = 6, 30
+SLOPE_RAD = 1e-4
+DAMPED = 1e-8
+MARGIN_RAD = 0.02
+"""How far the stance keeps from the ends of ranges where it can."""
+REACHED = 5e-4
+"""A sole that is nearer to its place than this, m, and to level, rad, is there."""
 
 
-def stance(anatomy: Anatomy, legs: dict[str, FoundLeg]) -> dict[str, float]:
-    """Return the joints' angles in the model's keyframe `stand`, or else in a guess, rad.
+class Stance:
+    """Looks for the stance of a model.
 
-    Args:
-        anatomy: of a model with a free root.
-        legs: both, by their side.
+    Attributes:
+        missed: for each side how far the sole is from where it should be, m and rad together.
     """
-    model = anatomy.model
-    names = [model.key(number).name for number in range(model.nkey)]
-    if STAND in names:
-        qpos = model.key(STAND).qpos
-        return {model.joint(j).name: float(qpos[6 + j]) for j in range(1, model.njnt)}
-    low, high, hip = -1.2, 0.3, 0.0
-    for _ in range(40):
-        hip = 0.5 * (low + high)
-        data = posed(model, _bent(anatomy, legs, hip))
-        soles = [_sole_x(data, leg) for leg in legs.values()]
-        # The further the thighs are ahead, the further the soles.
-        low, high = (low, hip) if data.subtree_com[1][0] > sum(soles) / 2 else (hip, high)
-    return _bent(anatomy, legs, hip)
+
+    def __init__(self, anatomy: Anatomy, legs: Mapping[str, FoundLeg]) -> None:
+        """Begin with all joints at zero, or as near to it as their ranges go."""
+        self._model, self._legs = anatomy.model, legs
+        self._zero = nearest_to_zero(anatomy.model)
+        if anatomy.model.jnt_type[0] == mujoco.mjtJoint.mjJNT_FREE:
+            self._zero[:7] = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+        self.missed: dict[str, float] = {}
+
+    def angles(self, peaks: Mapping[str, float], others: Mapping[str, float]) -> dict[str, float]:
+        """Return the angles of all joints that are not at zero, rad.
+
+        Args:
+            peaks: peak torques of the legs' joints, N m.
+            others: angles of joints that are no leg's.
+        """
+        chosen: Floats | None = None
+        for knee in KNEE_RADS:
+            data = self._bent(knee, others)
+            worst = max(
+                load for leg in self._legs.values() for load in self._shares(data, leg, peaks)
+            )
+            chosen = data.qpos.copy()
+            if worst <= EASY_SHARE:
+                break
+        assert chosen is not None
+        model, found = self._model, {}
+        for joint in range(1, model.njnt):
+            angle = round(float(chosen[model.jnt_qposadr[joint]]), ROUNDED) + 0.0
+            if angle:
+                found[model.joint(joint).name] = angle
+        return found
+
+    def _shares(
+        self, data: mujoco.MjData, leg: FoundLeg, peaks: Mapping[str, float]
+    ) -> list[float]:
+        copy = mujoco.MjData(self._model)
+        copy.qpos[:] = data.qpos
+        sole = (leg.foot, leg.sole.in_link)
+        return [load.share for load in load_on(self._model, copy, leg.joints, sole, peaks)]
+
+    def _bent(self, knee: float, others: Mapping[str, float]) -> mujoco.MjData:
+        """Return the posture with knees bent so far."""
+        model, data = self._model, mujoco.MjData(self._model)
+        data.qpos[:] = self._zero
+        for name, angle in others.items():
+            data.qpos[model.joint(name).qposadr[0]] = angle
+        for leg in self._legs.values():
+            self._bend(data, leg, knee)
+        for _ in range(ROUNDS):
+            _place(model, data)
+            ahead = float(data.subtree_com[0][0])
+            heights = [
+                float(place_of(data, self._link(leg), leg.sole)[2]) for leg in self._legs.values()
+            ]
+            for side, leg in self._legs.items():
+                aside = float(place_of(data, self._link(leg), leg.sole)[1])
+                target = np.array([ahead, aside, sum(heights) / len(heights)])
+                self.missed[side] = self._reach(data, leg, target)
+        return data
+
+    def _link(self, leg: FoundLeg) -> int:
+        return int(self._model.body(leg.foot).id)
+
+    def _bend(self, data: mujoco.MjData, leg: FoundLeg, bend: float) -> None:
+        """Bend a knee forwards, and turn hip and ankle against it by half."""
+        model, signs = self._model, {}
+        _place(model, data)
+        across = np.cross([0.0, 0.0, 1.0], FORWARD)
+        for role in (HIP_PITCH, KNEE, ANKLE_PITCH):
+            name = leg.joint(role)
+            if name is not None:
+                joint = model.joint(name).id
+                signs[role] = (joint, float(np.sign(data.xaxis[joint] @ across)))
+        for role, share in ((KNEE, 1.0), (HIP_PITCH, -0.5), (ANKLE_PITCH, -0.5)):
+            if role in signs:
+                joint, sign = signs[role]
+                at = int(model.jnt_qposadr[joint])
+                # Where a shin leans at zero, the knee counts from where it is.
+                data.qpos[at] = _within(model, joint, float(data.qpos[at]) + share * sign * bend)
+
+    def _reach(self, data: mujoco.MjData, leg: FoundLeg, target: Floats) -> float:
+        """Bring a sole to a place, level and ahead, by damped Newton steps; return what is left."""
+        model, link = self._model, self._link(leg)
+        joints = [model.joint(name).id for name in leg.joints]
+        dofs = [int(model.jnt_dofadr[joint]) for joint in joints]
+        turns = leg.joint(HIP_YAW) is not None and len(joints) > 5
+        left = np.inf
+        for _ in range(STEPS):
+            _place(model, data)
+            place = place_of(data, link, leg.sole)
+            error = np.concatenate([target - place, _turn_to_level(data, link, leg, turns)])
+            left = float(np.abs(error).max())
+            if left < 1e-9:
+                break
+            ahead, turn = np.zeros((3, model.nv)), np.zeros((3, model.nv))
+            mujoco.mj_jac(model, data, ahead, turn, place, link)
+            rows = np.concatenate([ahead[:, dofs], turn[:, dofs][: 3 if turns else 2]])
+            step = rows.T @ np.linalg.solve(rows @ rows.T + DAMPED * np.eye(len(rows)), error)
+            step *= min(1.0, 0.3 / max(float(np.abs(step).max()), 1e-12))
+            for joint, by in zip(joints, step, strict=True):
+                at = int(model.jnt_qposadr[joint])
+                data.qpos[at] = _within(model, joint, float(data.qpos[at] + by))
+        _place(model, data)
+        return left
 
 
-def posed(model: mujoco.MjModel, angles: dict[str, float]) -> mujoco.MjData:
-    """Return the places of all bodies with the root upright at the origin, the rest at zero."""
-    data = mujoco.MjData(model)
-    data.qpos[:] = 0.0
-    data.qpos[3] = 1.0
-    for name, angle in angles.items():
-        data.qpos[model.joint(name).qposadr[0]] = angle
+def _place(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
-    return data
 
 
-def axis_sign(anatomy: Anatomy, joint: str) -> float:
-    """Return 1 where a joint turns about x, y or z ahead, left and up; -1 where against it."""
-    axis = anatomy.axis(anatomy.model.joint(joint).id)
-    return float(np.sign(axis[int(np.argmax(np.abs(axis)))]))
+def _within(model: mujoco.MjModel, joint: int, angle: float) -> float:
+    if not model.jnt_limited[joint]:
+        return angle
+    low, high = (float(bound) for bound in model.jnt_range[joint])
+    margin = min(MARGIN_RAD, 0.25 * (high - low))
+    return min(max(angle, low + margin if low < -margin else low), high - margin)
 
 
-def _bent(anatomy: Anatomy, legs: dict[str, FoundLeg], hip: float) -> dict[str, float]:
-    angles = {}
-    for leg in legs.values():
-        for slot, angle in ((2, hip), (3, KNEE_RAD), (4, -hip - KNEE_RAD)):
-            angles[leg.joints[slot]] = round(angle * axis_sign(anatomy, leg.joints[slot]), 4)
-    return angles
-
-
-def _sole_x(data: mujoco.MjData, leg: FoundLeg) -> float:
-    body = data.model.body(leg.foot).id
-    offset = data.xmat[body].reshape(3, 3) @ np.array(leg.sole[0])
-    return float(data.xpos[body][0] + offset[0])
+def _turn_to_level(data: mujoco.MjData, link: int, leg: FoundLeg, turns: bool) -> Floats:
+    """Return about which vector a sole has to be turned, rad: (x, y), and z where it can."""
+    rotation = data.xmat[link].reshape(3, 3)
+    if leg.sole.orientation is not None:
+        turn = np.empty(9)
+        mujoco.mju_quat2Mat(turn, np.array(leg.sole.orientation))
+        rotation = rotation @ turn.reshape(3, 3)
+    level = np.cross(rotation[:, 2], [0.0, 0.0, 1.0])
+    yaw = float(np.cross(rotation[:, 0], FORWARD)[2])
+    return np.array([level[0], level[1], yaw]) if turns else level[:2]

@@ -16,6 +16,13 @@ def _coarse(value: float) -> float:
     return value
 
 
+def _unit(value: tuple[float, ...]) -> tuple[float, ...]:
+    length = sum(number * number for number in value) ** 0.5
+    if not 0.99 < length < 1.01:
+        raise ValueError(f"must have the length 1, it has {length:.3g}")
+    return value
+
+
 Name = Annotated[str, StringConstraints(min_length=1, max_length=100)]
 Share = Annotated[FiniteFloat, Field(ge=0.0, le=1.0)]
 Length = Annotated[FiniteFloat, Field(ge=0.001, le=10.0)]
@@ -24,6 +31,10 @@ Coordinate = Annotated[FiniteFloat, Field(ge=-10.0, le=10.0)]
 """A place on the robot, m."""
 Position = tuple[Coordinate, Coordinate, Coordinate]
 """A point of the robot, m."""
+Orientation = Annotated[
+    tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat], AfterValidator(_unit)
+]
+"""A quaternion w, x, y, z of length 1."""
 Angle = Annotated[FiniteFloat, Field(ge=-100.0, le=100.0)]
 """An angle of a joint, rad."""
 AngleError = Annotated[FiniteFloat, Field(ge=0.0, le=0.5)]

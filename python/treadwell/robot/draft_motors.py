@@ -1,0 +1,139 @@
+"""`[motors]` of a drafted `robot.toml`: groups of joints whose motors are drafted alike."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import replace
+
+import mujoco
+
+from treadwell.robot.anatomy import Anatomy, FoundLeg, place_of
+from treadwell.robot.loops import drivers, ties_of
+from treadwell.robot.motors_found import ARM_SHARE, Fitting, Servo
+
+CAMERA_MOTORS = """[motors.camera]                 # of the unit that turns the camera
+joints = ["camera_pan", "camera_tilt"]
+peak_torque = 2.0
+no_load_speed = 8.0
+kp = 20.0
+kv = 0.4
+"""
+
+
+def size_of(anatomy: Anatomy, legs: Mapping[str, FoundLeg]) -> float:
+    """Return how high the hips are over the soles at angles zero, m."""
+    heights = []
+    for leg in legs.values():
+        hip = anatomy.data.xanchor[anatomy.model.joint(leg.joints[0]).id]
+        sole = place_of(anatomy.data, anatomy.model.body(leg.foot).id, leg.sole)
+        heights.append(float(hip[2] - sole[2]))
+    return sum(heights) / len(heights)
+
+
+def motor_roles(model: mujoco.MjModel, legs: Mapping[str, FoundLeg]) -> dict[int, str]:
+    """Return what the motors of the legs do, by the joint that has the motor."""
+    tied = ties_of(model)
+    roles = {}
+    for leg in legs.values():
+        for name, role in zip(leg.joints, leg.roles, strict=True):
+            joint = int(model.joint(name).id)
+            roles[tied[joint].leader if joint in tied else joint] = role
+    return roles
+
+
+def peaks_of(
+    legs: Mapping[str, FoundLeg], model: mujoco.MjModel, fitting: Fitting
+) -> dict[str, float]:
+    """Return the peak torques at the joints of the legs, N m, by joint."""
+    tied, roles, peaks = ties_of(model), motor_roles(model, legs), {}
+    for leg in legs.values():
+        for name in leg.joints:
+            joint = int(model.joint(name).id)
+            motor = tied[joint].leader if joint in tied else joint
+            ratio = abs(tied[joint].ratio) if joint in tied else 1.0
+            peaks[name] = fitting.torque(motor, roles.get(motor))[0] / max(ratio, 1e-6)
+    return peaks
+
+
+def draft_motors(
+    anatomy: Anatomy, legs: Mapping[str, FoundLeg], fitting: Fitting, camera: bool
+) -> str:
+    """Return the tables of all motors.
+
+    Args:
+        anatomy: of the model.
+        legs: both.
+        fitting: drafts one motor.
+        camera: whether the camera gets a unit of its own that turns it.
+    """
+    model = anatomy.model
+    roles, tied = motor_roles(model, legs), ties_of(model)
+    groups: dict[tuple[bool, Servo], list[str]] = {}
+    for joint in sorted(drivers(model)):
+        moved = float(model.dof_M0[model.jnt_dofadr[joint]])
+        for follower, tie in tied.items():
+            if tie.leader == joint:
+                moved += tie.ratio**2 * float(model.dof_M0[model.jnt_dofadr[follower]])
+        servo = fitting.servo(joint, roles.get(joint), moved)
+        rounded = _rounded(servo)
+        groups.setdefault((joint in roles, rounded), []).append(model.joint(joint).name)
+    text = _heading(fitting, model)
+    counts = {True: 0, False: 0}
+    for (leg, servo), names in groups.items():
+        counts[leg] += 1
+        text += _group(f"{'leg' if leg else 'other'}{counts[leg]}", names, servo)
+    return text + (CAMERA_MOTORS if camera else "")
+
+
+def _rounded(servo: Servo) -> Servo:
+    """Return a servo with two digits of what was guessed: alike is what differs by less."""
+    return replace(
+        servo,
+        torque=_digits(servo.torque, 3),
+        stall=_digits(servo.stall, 3),
+        speed=_digits(servo.speed, 2),
+        kp=_digits(servo.kp, 2),
+        kv=_digits(servo.kv, 2),
+    )
+
+
+def _digits(value: float, count: int) -> float:
+    return float(f"{value:.{count}g}")
+
+
+def _heading(fitting: Fitting, model: mujoco.MjModel) -> str:
+    mass = float(model.body_subtreemass[0])
+    lines = [
+        "",
+        "# Motors. What the model says of a group stands behind its name; the rest are guesses:",
+        f"# torques by what such legs need under {mass:.1f} kg, elsewhere {ARM_SHARE:g} of",
+        "# that; stiffness by mass and length; speeds as common servos have them. Put in the data",
+        "# sheet's figures where you know them.",
+    ]
+    if fitting.bound:
+        lines.append(
+            f"# The model bounds all controls by {fitting.bound:g}: that is no motor's torque."
+        )
+    return "\n".join(lines) + "\n"
+
+
+def _group(name: str, names: list[str], servo: Servo) -> str:
+    said = f"by the model: {servo.said}" if servo.said else "the model says nothing of it: a guess"
+    lines = [
+        f"[motors.{name}]".ljust(32) + f"# {said}",
+        f"joints = [{', '.join(json.dumps(joint, ensure_ascii=False) for joint in names)}]",
+        f"peak_torque = {servo.torque:g}",
+    ]
+    if servo.stall > servo.torque:
+        lines.append(f"stall_torque = {servo.stall:g}")
+    lines += [f"no_load_speed = {servo.speed:g}", f"kp = {servo.kp:g}", f"kv = {servo.kv:g}"]
+    if servo.damping is not None:
+        lines.append(
+            f"damping = {servo.damping:g}".ljust(32)
+            + "# the model's stands for a servo or its speed limit"
+        )
+    if servo.armature is not None:
+        lines.append(
+            f"armature = {servo.armature:g}".ljust(32)
+            + "# with the model's, such a servo would shake"
+        )
+    return "\n".join(lines) + "\n"
