@@ -36,6 +36,7 @@ pub struct LinkPoses {
 impl Body {
     /// Checks a description and prepares it.
     pub fn new(description: Description) -> Result<Self, BodyError> {
+        description.check_size()?;
         let joint_index: BTreeMap<_, _> = description
             .joints
             .iter()

@@ -91,6 +91,7 @@ fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
         .collect();
     Body::new(Description {
         name: "biped".to_owned(),
+        scale: 1.0,
         stand: vec![0.0; joints.len()],
         joints,
         links,

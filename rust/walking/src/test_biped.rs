@@ -93,6 +93,7 @@ pub(crate) fn description() -> Description {
     let stand = [&bent[..], &bent[..], &[0.0, 0.0, 0.0]].concat();
     Description {
         name: "biped".to_owned(),
+        scale: 1.0,
         joints,
         stand,
         torso: "pelvis".to_owned(),

@@ -68,9 +68,9 @@ settings! {
         /// The robot declares that it has arrived after standing this long.
         arrive_time: f64 = 0.5, "s", STAND;
         /// The robot stands and waits when no frame has come for longer than this.
-        blind_after: f64 = 2.0, "s", PATIENCE;
+        blind_after: f64 = 2.0, "s" of camera, PATIENCE;
         /// The robot gives up when it has waited for a frame for this long.
-        blind_limit: f64 = 12.0, "s", PATIENCE;
+        blind_limit: f64 = 12.0, "s" of camera, PATIENCE;
         /// A robot that does not know where it is gives up after this time.
         locate_limit: f64 = 60.0, "s", PATIENCE;
         /// The planner must find no way for this long, and in all directions looked at, before the robot gives up.
