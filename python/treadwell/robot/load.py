@@ -24,6 +24,7 @@ from treadwell.robot.followers import Tie, ties
 from treadwell.robot.keyframes import STAND
 from treadwell.robot.motor_limits import MotorLimits, rotors
 from treadwell.robot.reading import read_robot_file
+from treadwell.robot.size import Stance, scale_of, with_size
 from treadwell.scenario.messages import shortened
 
 MOST_FILES = 2000
@@ -115,6 +116,15 @@ class Robot:
         return self.stand_qpos[7:].copy()
 
     @cached_property
+    def scale(self) -> float:
+        """How large the robot is against `qrio`, of which the defaults of all settings are."""
+        return scale_of(self._stance, self.file)
+
+    @cached_property
+    def _stance(self) -> Stance:
+        return Stance.of(self.nominal, self.stand_qpos)
+
+    @cached_property
     def limits(self) -> MotorLimits:
         """What the motors can do, in joint order.
 
@@ -143,7 +153,8 @@ class Robot:
 
         Links, masses and mounts are read from the compiled MJCF, so that each number exists once.
         """
-        return describe(self.name, self.nominal, self.file, self.stand, self.limits)
+        told = describe(self.name, self.nominal, self.file, self.stand, self.limits)
+        return with_size(told, self.scale, self._stance, self.file)
 
     def _group(self, joint: int) -> MotorsTable:
         name = self.joints[joint]

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::size::own_size;
 pub use legs::{ForceSensors, LEAST_LEG_JOINTS, Leg, Legs, MOST_LEG_JOINTS, Sole};
 
 /// The left or the right leg.
@@ -51,6 +52,9 @@ impl Side {
 pub struct Description {
     /// The folder's name.
     pub name: String,
+    /// Length of the leg over that of the robot whose numbers the defaults are; descriptions from before are of robots of its size.
+    #[serde(default = "own_size")]
+    pub scale: f64,
     /// Links, each behind its parent; the first is the root.
     pub links: Vec<LinkDescription>,
     /// Names of the joints in joint order: that of every array over joints.

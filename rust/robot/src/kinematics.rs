@@ -36,6 +36,7 @@ pub struct LinkPoses {
 impl Body {
     /// Checks a description and prepares it.
     pub fn new(description: Description) -> Result<Self, BodyError> {
+        description.check_size()?;
         let joint_index: BTreeMap<_, _> = description
             .joints
             .iter()
@@ -67,7 +68,7 @@ impl Body {
                 .map(|name| find(&joint_index, "joint", "legs", name))
                 .collect::<Result<_, _>>()?;
             sole_links[side.index()] = find(&link_index, "link", "sole", &leg(side).sole.link)?;
-            link_from_sole[side.index()] = leg(side).sole.link_from_sole();
+            link_from_sole[side.index()] = isometry(leg(side).sole.position, [1.0, 0.0, 0.0, 0.0]);
         }
         if description.stand.len() != description.joints.len() {
             return Err(BodyError::WrongJointCount {

@@ -6,6 +6,7 @@ mod description;
 mod error;
 mod kinematics;
 mod links;
+mod size;
 mod statics;
 
 pub use description::{

@@ -78,7 +78,6 @@ pub fn biped() -> Body {
         sole: Sole {
             link: format!("{side}_foot"),
             position: [0.0, 0.0, -0.04],
-            orientation: [1.0, 0.0, 0.0, 0.0],
             length: 0.105,
             width: 0.075,
         },
@@ -95,6 +94,7 @@ fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
         .collect();
     Body::new(Description {
         name: "biped".to_owned(),
+        scale: 1.0,
         stand: vec![0.0; joints.len()],
         joints,
         links,

@@ -4,7 +4,7 @@ use geometry::PlanarPose;
 use nalgebra::Vector3;
 use robot::{Body, LinkPoses, Side};
 use serde::Deserialize;
-use settings::Table;
+use settings::{Table, TableDescription, overlay};
 
 use crate::config::GaitConfig;
 use crate::error::WalkError;
@@ -59,15 +59,16 @@ impl UprightStance {
 }
 
 impl GaitConfig {
-    /// Reads `[gait]` of a body, and its upright stance; nothing stands for the defaults. Width and height of the stance are those of the
-    /// upright one unless given.
+    /// Reads `[gait]` of a body, and its upright stance; what it does not say has the default of a body of that size. Width and height
+    /// of the stance are those of the upright one unless given.
     pub fn read(body: &Body) -> Result<(Self, UprightStance), WalkError> {
         let table = &body.description().gait;
-        let mut config: Self = if table.is_null() {
-            Self::default()
-        } else {
-            Self::deserialize(table).map_err(|error| WalkError::Form(error.to_string()))?
-        };
+        let mut sized = TableDescription::of::<Self>().defaults_at(&body.description().size());
+        if !table.is_null() {
+            overlay(&mut sized, table);
+        }
+        let mut config =
+            Self::deserialize(&sized).map_err(|error| WalkError::Form(error.to_string()))?;
         config.tuning.check()?;
         let stance = UprightStance::upright(body, &config.tuning.leg)?;
         if table.get("stance_width").is_none() {

@@ -95,6 +95,7 @@ pub(crate) fn description() -> Description {
     let stand = [&bent[..], &bent[..], &[0.0, 0.0, 0.0]].concat();
     Description {
         name: "biped".to_owned(),
+        scale: 1.0,
         joints,
         stand,
         torso: "pelvis".to_owned(),
@@ -131,7 +132,6 @@ fn leg(side: &str) -> Leg {
         sole: Sole {
             link: format!("{side}_foot"),
             position: [0.0, 0.0, -0.045],
-            orientation: [1.0, 0.0, 0.0, 0.0],
             length: 0.105,
             width: 0.075,
         },

@@ -67,7 +67,7 @@ settings! {
         /// Most steps of Newton's method from a solution that is near; as many again from the upright stance where those do not get there.
         steps: usize = 12, "1", within(1.0, 1000.0);
         /// Newton's method is done when the sole is so near to where it should be.
-        near: f64 = 1e-6, "m", above_to(0.0, 1e-3);
+        near: f64 = 1e-6, "m" of numerics, above_to(0.0, 1e-3);
         /// Largest turn of a joint in one step of it.
         longest_step: f64 = 0.5, "rad", above_to(0.0, 3.2);
     }

@@ -1,10 +1,8 @@
 //! What a robot's folder says of its legs, as plain data.
 
-use nalgebra::{Isometry3, Point3};
 use serde::{Deserialize, Serialize};
 
 use super::Side;
-use crate::links::isometry;
 
 /// A sole can be put somewhere, level, by no fewer joints.
 pub const LEAST_LEG_JOINTS: usize = 5;
@@ -44,18 +42,6 @@ pub struct Leg {
     pub sensors: Option<ForceSensors>,
 }
 
-/// No turn.
-const fn along_the_link() -> [f64; 4] {
-    [1.0, 0.0, 0.0, 0.0]
-}
-
-impl Sole {
-    /// The sole's frame in its link's.
-    pub fn link_from_sole(&self) -> Isometry3<f64> {
-        isometry(self.position, self.orientation)
-    }
-}
-
 impl Leg {
     /// Middle of the force sensors from the sole's centre, and their distances, forward and to the left, m.
     pub fn sensors_on_sole_m(&self) -> ([f64; 2], [f64; 2]) {
@@ -63,12 +49,7 @@ impl Leg {
         self.sensors
             .as_ref()
             .map_or(([0.0; 2], [sole.length, sole.width]), |sensors| {
-                let middle = if sole.orientation == along_the_link() {
-                    [0, 1].map(|axis| sensors.position[axis] - sole.position[axis])
-                } else {
-                    let middle = sole.link_from_sole().inverse() * Point3::from(sensors.position);
-                    [middle.x, middle.y]
-                };
+                let middle = [0, 1].map(|axis| sensors.position[axis] - sole.position[axis]);
                 (middle, [sensors.length, sensors.width])
             })
     }
@@ -82,12 +63,9 @@ pub struct Sole {
     pub link: String,
     /// Centre of the rectangle in the link's frame, in the plane that touches the ground, m.
     pub position: [f64; 3],
-    /// The sole's frame (x to the toes, z up) in the link's, quaternion w, x, y, z: along the link's axes, where nothing else is said.
-    #[serde(default = "along_the_link")]
-    pub orientation: [f64; 4],
-    /// Extent along the sole's x, m.
+    /// Extent along x, m.
     pub length: f64,
-    /// Extent along its y, m.
+    /// Extent along y, m.
     pub width: f64,
 }
 
@@ -97,8 +75,8 @@ pub struct Sole {
 pub struct ForceSensors {
     /// Its centre in the link's frame, m.
     pub position: [f64; 3],
-    /// Extent along the sole's x, m.
+    /// Extent along x, m.
     pub length: f64,
-    /// Extent along its y, m.
+    /// Extent along y, m.
     pub width: f64,
 }

@@ -6,7 +6,6 @@ fn leg(sensors: Option<ForceSensors>) -> Leg {
     let sole = Sole {
         link: "foot".to_owned(),
         position: [0.02, 0.005, -0.045],
-        orientation: [1.0, 0.0, 0.0, 0.0],
         length: 0.15,
         width: 0.09,
     };
