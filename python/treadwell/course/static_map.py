@@ -16,13 +16,14 @@ from treadwell.errors import InputError
 from treadwell.scenario.loading import map_file_fault
 
 MARGIN: Final = 1.0
-"""Metres of ground that the map has around what stands on it, and around the start."""
+"""Metres of ground that the map has around what stands on it, and around the start, where the
+course's scale is 1."""
 
 MOST_VOXELS: Final = 2**24
 """Voxels that the box around a map may have: what a localizer keeps of each is 8 bytes."""
 
 RESOLUTION: Final = 0.04
-"""Metres: side of a voxel where `[navigation.static_map]` does not say it."""
+"""Metres: side of a voxel where `[navigation.static_map]` does not say it, of such a course."""
 
 LEAST_THICKNESS: Final = 1.000001
 """Voxels: what is thinner counts as thick as this, so that it holds a middle wherever it stands."""
@@ -46,7 +47,7 @@ def told_octree(course: Course, table: Mapping[str, object], folder: Path, where
     Raises:
         InputError: the table is bad, the file broken, or the course too large.
     """
-    resolution = map_resolution(table, where)
+    resolution = map_resolution(table, where, RESOLUTION * course.scale)
     if "file" not in table:
         return static_map(course, resolution, where)
     fault = map_file_fault(table, folder)
@@ -58,12 +59,13 @@ def told_octree(course: Course, table: Mapping[str, object], folder: Path, where
         raise InputError(f"{where}: navigation.static_map.file: {error}") from None
 
 
-def map_resolution(table: Mapping[str, object], where: str) -> float:
+def map_resolution(table: Mapping[str, object], where: str, default: float = RESOLUTION) -> float:
     """Return the side of a voxel, metres, by the table `[navigation.static_map]`.
 
     Args:
         table: as the user wrote it.
         where: the scenario's name for an error.
+        default: where the table has none, metres.
 
     Raises:
         InputError: there is another key, or the resolution cannot be.
@@ -73,7 +75,7 @@ def map_resolution(table: Mapping[str, object], where: str) -> float:
             raise InputError(
                 f"{where}: navigation.static_map.{key}: unknown key; allowed: {', '.join(KEYS)}"
             )
-    value = table.get("resolution", RESOLUTION)
+    value = table.get("resolution", default)
     if (
         isinstance(value, bool)
         or not isinstance(value, int | float)
@@ -121,7 +123,7 @@ def _extent(course: Course, mapped: list[CourseElement]) -> tuple[Floats, Floats
     """Return the lowest and the highest corner of what is mapped, with the margin, metres."""
     start = np.array([[*course.start.position, course.start.height]])
     low, high = bounds((piece for element in mapped for piece in element.pieces), start)
-    margin = np.array([MARGIN, MARGIN, 0.0])
+    margin = course.scale * np.array([MARGIN, MARGIN, 0.0])
     low, high = low - margin, high + margin
     low[2] = min(low[2], 0.0)
     return low, high

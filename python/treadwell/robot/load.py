@@ -102,6 +102,27 @@ class Robot:
         return self.stand_qpos[7:].copy()
 
     @cached_property
+    def scale(self) -> float:
+        """Its leg's length over `qrio`'s 0.25 m, to three decimals; 1 of the robots that ship."""
+        if self.folder.resolve().is_relative_to(data_folder("models").resolve()):
+            return 1.0
+        model, legs = self.nominal, (self.file.legs.left, self.file.legs.right)
+        data = mujoco.MjData(model)
+        data.qpos[3] = 1.0
+        mujoco.mj_kinematics(model, data)
+        lengths = []
+        for leg in legs:
+            link = model.body(leg.sole.link).id
+            ground = data.xpos[link] + data.xmat[link].reshape(3, 3) @ np.array(leg.sole.position)
+            lengths.append(data.xanchor[model.joint(leg.joints[0]).id][2] - ground[2])
+        return round(float(sum(lengths)) / 2 / 0.25, 3)
+
+    @cached_property
+    def mass(self) -> float:
+        """All of it, kg."""
+        return float(self.nominal.body_subtreemass[1])
+
+    @cached_property
     def limits(self) -> MotorLimits:
         """What the motors can do, in joint order; a follower's is its leader's."""
         model = self.nominal
