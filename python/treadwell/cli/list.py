@@ -75,11 +75,11 @@ def show(document: Mapping[str, Any]) -> None:
             ]
             write_table(kind, ("slot", "name", "what it is"), triples)
         elif kind == CASES:
-            rows = [
+            lines = [
                 (each["name"], each["scenario"], f"{each['share']:g}", ", ".join(each["settings"]))
                 for each in entries
             ]
-            write_table(kind, ("name", "scenario", "runs a seed", "settings"), rows)
+            write_table(kind, ("name", "scenario", "runs a seed", "settings"), lines)
         elif kind == EXPERIMENTS:
             triples = [
                 (each["name"], each["description"], ", ".join(each["cases"])) for each in entries
