@@ -17,7 +17,7 @@ from test_solvable import WALLS, gap
 from treadwell.cli.app import execute
 from treadwell.course.build import build_course
 from treadwell.course.plan import plan_course
-from treadwell.course.static_map import map_resolution, static_map
+from treadwell.course.static_map import static_map
 from treadwell.episode import Episode
 from treadwell.errors import InputError
 from treadwell.experiments.drawn import write_scenario
@@ -237,10 +237,8 @@ def test_a_larger_robot_finds_no_way_through_what_is_not_multiplied_with_it() ->
     assert is_solvable(made, build_course(made, larger()), larger()) is True
 
 
-def test_the_map_that_is_told_has_larger_voxels_unless_the_scenario_says_how_large() -> None:
+def test_the_map_of_a_larger_course_has_as_many_larger_voxels() -> None:
     usual, large = (build_course(fitted("slalom"), robot) for robot in (qrio(), larger()))
-    assert map_resolution({}, "x", 0.06) == 0.06
-    assert map_resolution({"resolution": 0.05}, "x", 0.06) == 0.05
     sizes = [len(static_map(c, 0.04 * c.scale, "x").occupied()) for c in (usual, large)]
     assert sizes[1] == pytest.approx(sizes[0], rel=0.02)
 

@@ -23,7 +23,7 @@ MOST_VOXELS: Final = 2**24
 """Voxels that the box around a map may have: what a localizer keeps of each is 8 bytes."""
 
 RESOLUTION: Final = 0.04
-"""Metres: side of a voxel where `[navigation.static_map]` does not say it, of such a course."""
+"""Metres: side of a voxel where `[navigation.static_map]` does not say it."""
 
 LEAST_THICKNESS: Final = 1.000001
 """Voxels: what is thinner counts as thick as this, so that it holds a middle wherever it stands."""
@@ -47,7 +47,7 @@ def told_octree(course: Course, table: Mapping[str, object], folder: Path, where
     Raises:
         InputError: the table is bad, the file broken, or the course too large.
     """
-    resolution = map_resolution(table, where, RESOLUTION * course.scale)
+    resolution = map_resolution(table, where)
     if "file" not in table:
         return static_map(course, resolution, where)
     fault = map_file_fault(table, folder)
@@ -59,13 +59,12 @@ def told_octree(course: Course, table: Mapping[str, object], folder: Path, where
         raise InputError(f"{where}: navigation.static_map.file: {error}") from None
 
 
-def map_resolution(table: Mapping[str, object], where: str, default: float = RESOLUTION) -> float:
+def map_resolution(table: Mapping[str, object], where: str) -> float:
     """Return the side of a voxel, metres, by the table `[navigation.static_map]`.
 
     Args:
         table: as the user wrote it.
         where: the scenario's name for an error.
-        default: where the table has none, metres.
 
     Raises:
         InputError: there is another key, or the resolution cannot be.
@@ -75,7 +74,7 @@ def map_resolution(table: Mapping[str, object], where: str, default: float = RES
             raise InputError(
                 f"{where}: navigation.static_map.{key}: unknown key; allowed: {', '.join(KEYS)}"
             )
-    value = table.get("resolution", default)
+    value = table.get("resolution", RESOLUTION)
     if (
         isinstance(value, bool)
         or not isinstance(value, int | float)
