@@ -20,7 +20,7 @@ settings! {
         /// Longest step backward.
         max_backward: f64 = 0.05, "m", above_to(0.0, 10.0);
         /// Largest extra distance between the feet in a side step.
-        max_sideways: f64 = 0.10, "m", above_to(0.0, 10.0);
+        max_sideways: f64 = 0.06, "m", above_to(0.0, 10.0);
         /// Largest turn of one step.
         max_turn: f64 = 0.3, "rad", between(0.0, 1.0);
         /// Distance between the centres of the soles when they are side by side; where it is not given, that of the upright stance.
