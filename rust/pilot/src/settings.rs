@@ -75,7 +75,7 @@ fn first_walker() -> String {
 }
 
 impl Settings {
-    /// The same with the defaults of a robot of this size.
+    /// These settings with the defaults that a robot of this size has.
     pub(crate) fn sized(&self) -> Self {
         let mut sized = self.clone();
         sized.navigation.tables = tables::sized(&sized.navigation.tables, &sized.robot.size());

@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::size::own_size;
 pub use legs::{ForceSensors, LEAST_LEG_JOINTS, Leg, Legs, MOST_LEG_JOINTS, Sole};
 
 /// The left or the right leg.
@@ -53,7 +52,7 @@ pub struct Description {
     /// The folder's name.
     pub name: String,
     /// Length of the leg over that of the robot whose numbers the defaults are; descriptions from before are of robots of its size.
-    #[serde(default = "own_size")]
+    #[serde(default = "first_scale")]
     pub scale: f64,
     /// Links, each behind its parent; the first is the root.
     pub links: Vec<LinkDescription>,
@@ -84,6 +83,11 @@ pub struct Description {
     /// `[gait]` of robot.toml as it stands there; read by the walker.
     #[serde(default)]
     pub gait: serde_json::Value,
+}
+
+/// What robots have that were described before a description said it.
+const fn first_scale() -> f64 {
+    1.0
 }
 
 /// One rigid link and the joint, if any, that turns it against its parent.

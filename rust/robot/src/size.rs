@@ -7,11 +7,6 @@ use crate::{BodyError, Description};
 /// Mass of `qrio`, kg.
 const QRIO_KG: f64 = 7.0;
 
-/// What a description says that says no size.
-pub(crate) const fn own_size() -> f64 {
-    1.0
-}
-
 impl Description {
     /// Refuses a size that no robot has.
     pub(crate) fn check_size(&self) -> Result<(), BodyError> {
@@ -27,7 +22,7 @@ impl Description {
 
     /// Its length and its mass over those of `qrio`. A robot whose scale is 1 has every number of `qrio`'s, whatever its mass.
     pub fn size(&self) -> Scale {
-        if self.scale == own_size() {
+        if self.scale == 1.0 {
             return Scale::ONE;
         }
         let mass_kg: f64 = self.links.iter().map(|link| link.mass).sum();

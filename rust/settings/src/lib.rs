@@ -20,10 +20,10 @@ pub use bounds::{
 pub use error::require_fit;
 pub use error::{ConfigError, MakeError, require};
 pub use part::Part;
-pub use scale::{Owner, Scale};
+pub use scale::Scale;
 #[doc(hidden)]
 pub use setting::words_of;
-pub use setting::{Parameter, Setting};
+pub use setting::{Owner, Parameter, Setting};
 #[doc(hidden)]
 pub use table::{Declared, describe, key_of};
 pub use table::{Table, TableDescription, Tables, overlay, read};

@@ -2,7 +2,7 @@
 //!
 //! Robots that are alike move alike at equal Froude numbers: with lengths `s` times as large, times and speeds are `sqrt(s)` times
 //! as large, rates `1/sqrt(s)` times, and accelerations the same; forces go with the mass. What a unit has of length, time and force
-//! therefore says what becomes of a default. What is not the robot's own says so where it is declared, by its [`Owner`].
+//! therefore says what becomes of a default. What is not the robot's own says so where it is declared, by its [`crate::Owner`].
 
 use serde_json::{Map, Number, Value, json};
 
@@ -23,20 +23,6 @@ pub struct Scale {
     pub length: f64,
     /// Its mass over that one's.
     pub mass: f64,
-}
-
-/// Whose a setting is that does not follow the robot's size, though its unit has a length or a time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Owner {
-    /// The camera's: how far it sees, how its depths err, how often it looks.
-    Camera,
-    /// That of the inertial unit, the encoders or the force cells: how they err, and how long what they say is averaged.
-    Sensor,
-    /// That of what is there whoever looks at it: how people move.
-    World,
-    /// The computation's: where it has converged.
-    Numerics,
 }
 
 /// Dimensions of a unit: quarters of the power of lengths, by which times are half as much, and the power of masses.
@@ -163,7 +149,7 @@ fn whole_power(base: f64, power: i32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ANY, Table, TableDescription, settings};
+    use crate::{ANY, Owner, Table, TableDescription, settings};
     use proptest::prelude::*;
 
     settings! {

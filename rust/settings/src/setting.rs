@@ -3,7 +3,21 @@
 use schemars::JsonSchema;
 use serde_json::{Map, Value, json};
 
-use crate::{Bounds, ConfigError, Owner};
+use crate::{Bounds, ConfigError};
+
+/// Whose a setting is that does not follow the robot's size, though its unit has a length or a time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Owner {
+    /// The camera's: how far it sees, how its depths err, how often it looks.
+    Camera,
+    /// That of the inertial unit, the encoders or the force cells: how they err, and how long what they say is averaged.
+    Sensor,
+    /// That of what is there whoever looks at it: how people move.
+    World,
+    /// The computation's: where it has converged.
+    Numerics,
+}
 
 /// One setting, as `treadwell list parameters` shows it.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
