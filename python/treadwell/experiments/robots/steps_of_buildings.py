@@ -16,6 +16,7 @@ _FOOT_M: Final = 1.6
 """How far ahead of the start the lowest step is, up; the way to the goal below, down."""
 _EDGE_M: Final = 1.3
 """How far ahead of the start the platform ends."""
+_TIME_LIMIT_S: Final = 240.0
 _TOP_M: Final = (3.0, 2.4)
 """Length and width of the platform."""
 _TURN: Final = 0.35
@@ -47,4 +48,4 @@ def stairs_of_a_building(robot: str, rise: float, way: str, _seed: int) -> dict[
         top = platform("platform", (_EDGE_M - _TOP_M[0] / 2, 0.0), (*_TOP_M, high))
         vary["start.position.0"] = between(-0.6, 0.2)
         made = scenario("steps", goal, [top, flight | place], start={"height": high}, vary=vary)
-    return {**made, "robot": robot}
+    return {**made, "robot": robot, "time_limit": _TIME_LIMIT_S}
