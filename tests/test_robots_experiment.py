@@ -10,19 +10,17 @@ from experiment_builders import rows_of
 from robot_builders import qrio_copy
 
 from treadwell.cli.app import execute
+from treadwell.course.build import build_course
+from treadwell.data import robot_names
 from treadwell.errors import InputError
 from treadwell.experiments.catalogue import EXPERIMENTS
+from treadwell.experiments.drawn import write_scenario
 from treadwell.experiments.experiment import NOTHING
-from treadwell.experiments.robots import (
-    COURSES,
-    OF_ANY,
-    ROBOTS,
-    WANTED,
-    Entrant,
-    robots_experiment,
-    robots_tables,
-)
+from treadwell.experiments.robots.entrants import COURSES, OF_ANY, TALL_NAMES, WANTED, Entrant
+from treadwell.experiments.robots.experiment import ROBOTS, robots_experiment, robots_tables
+from treadwell.experiments.robots.steps_of_buildings import RISES_M
 from treadwell.judging.result import CollisionEntry
+from treadwell.robot.load import Robot, load_robot
 from treadwell.runner import Run
 from treadwell.scenario.loading import load_scenario
 
@@ -38,13 +36,57 @@ def run(outcome: str = "goal_reached", course: str = "slalom", **facts: Any) -> 
 
 def test_every_robot_that_ships_walks_each_course_multiplied_to_it() -> None:
     assert EXPERIMENTS["robots"] is ROBOTS
-    assert {case.name for case in ROBOTS.cases} == {
-        f"{course}_{robot}" for course in COURSES for robot in ("qrio", "nao")
+    fitted = [case for case in ROBOTS.cases if isinstance(case.scenario, str)]
+    assert {case.name for case in fitted} == {
+        f"{course}_{robot}" for course in COURSES for robot in robot_names()
     }
-    for case in ROBOTS.cases:
+    assert {"qrio", "nao"} <= set(robot_names())
+    for case in fitted:
         made = load_scenario(str(case.scenario), seed=1, overrides=case.overrides)
         assert made.scale_to_robot
         assert f"{made.name}_{made.robot}" == case.name
+
+
+def test_a_tall_robot_is_tried_on_steps_as_buildings_have_them(tmp_path: Path) -> None:
+    tall = Entrant("tall", "nao", is_tall=True)
+    drawn = [case for case in tall.cases if not isinstance(case.scenario, str)]
+    assert len(drawn) == 2 * len(RISES_M)
+    assert len(tall.cases) == len(drawn) + len(COURSES)
+    assert len(Entrant("small", "nao").cases) == len(COURSES)
+    for case in drawn:
+        assert not isinstance(case.scenario, str)
+        for seed in range(4):
+            file = write_scenario(tmp_path / f"{case.name}-{seed}.toml", case.scenario(seed))
+            made = load_scenario(file, seed=seed)
+            course = build_course(made, load_robot(made.robot))
+            high = 4 * (0.17 if "17x28" in case.name else 0.12)
+            ends = (0.0, high) if case.name.startswith(("steps_12x28_up", "steps_17x28_up")) else (
+                high, 0.0)  # fmt: skip
+            assert (course.start.height, course.goal_height) == pytest.approx(ends)
+
+
+def test_steps_of_buildings_are_counted_apart() -> None:
+    tall = Entrant("h130", "h130", is_tall=True)
+    results = {"steps_12x28_up_h130": [run()], "steps_17x28_down_h130": [run("fell", falls=1)]}
+    made = next(
+        one for one in robots_tables([QRIO, tall])(results) if one.title == "Steps of buildings"
+    )
+    assert made.rows == (
+        ("h130", "12 x 28 cm", "1 of 1", NOTHING, "19 of 20"),
+        ("h130", "17 x 28 cm", NOTHING, "0 of 1 (1 fall)", NOTHING),
+    )
+
+
+def test_how_large_a_robot_is_decides_whether_it_is_tall(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = str(qrio_copy(tmp_path))
+    assert not any("steps_" in case.name for case in robots_experiment([folder]).cases)
+    monkeypatch.setattr(Robot, "scale", 2.6)
+    names = [case.name for case in robots_experiment([folder]).cases]
+    assert "steps_17x28_down_qrio" in names
+    for name in TALL_NAMES:
+        assert name not in robot_names() or load_robot(name).scale >= 2.5
 
 
 def test_robots_of_the_users_take_part_by_name_and_by_folder(tmp_path: Path) -> None:

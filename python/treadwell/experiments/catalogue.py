@@ -10,7 +10,7 @@ from treadwell.experiments.footsteps.experiment import FOOTSTEPS
 from treadwell.experiments.indoor.experiment import INDOOR
 from treadwell.experiments.models.experiment import MODELS
 from treadwell.experiments.nao import NAO
-from treadwell.experiments.robots import ROBOTS
+from treadwell.experiments.robots.experiment import ROBOTS
 from treadwell.experiments.stairs import STAIRS
 from treadwell.experiments.world.experiment import WORLD
 

@@ -1,0 +1,1 @@
+"""The experiment `robots`: robots side by side, on courses of their size."""
