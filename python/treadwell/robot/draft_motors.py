@@ -7,9 +7,16 @@ from dataclasses import replace
 import mujoco
 
 from treadwell.robot.anatomy import Anatomy, FoundLeg, place_of
+from treadwell.robot.joint_roles import ANKLE_PITCH, HIP_PITCH, KNEE
 from treadwell.robot.loops import drivers, ties_of
-from treadwell.robot.motors_found import ARM_SHARE, Fitting, Servo
+from treadwell.robot.motors_found import ARM_SHARE, REFERENCE_MASS_KG, Fitting, Servo
 
+REFERENCE_ANKLE = 80.0
+"""Stiffness of the ankles for which the gait's `ankle_gain` is, N m/rad."""
+REFERENCE_SPEED = 8.0
+"""No-load speed of the legs for which its climbing speeds are, rad/s."""
+ANKLE_GAIN, CLIMB_SPEED, CLIMB_LIFT_SPEED = 30.0, 0.195, 0.172
+"""The gait's defaults for a scale of 1."""
 CAMERA_MOTORS = """[motors.camera]                 # of the unit that turns the camera
 joints = ["camera_pan", "camera_tilt"]
 peak_torque = 2.0
@@ -52,6 +59,31 @@ def peaks_of(
             ratio = abs(tied[joint].ratio) if joint in tied else 1.0
             peaks[name] = fitting.torque(motor, roles.get(motor))[0] / max(ratio, 1e-6)
     return peaks
+
+
+def gait_of(
+    fitting: Fitting, motors: Mapping[str, int], mass_kg: float, scale: float
+) -> dict[str, float]:
+    """Return settings of the gait that follow from the servos, and not from the size alone.
+
+    How fast an ankle yields to where the ground presses: by how far that moves for an angle. How
+    fast feet are put on steps: no faster than the legs' motors turn.
+
+    Args:
+        fitting: drafts one motor.
+        motors: the joints with the motors of a leg, by what they do.
+        mass_kg: of the robot.
+        scale: of the robot.
+    """
+    ankle = fitting.servo(motors[ANKLE_PITCH], ANKLE_PITCH, 1.0)
+    stiffer = ankle.kp / REFERENCE_ANKLE / (mass_kg / REFERENCE_MASS_KG)
+    found = {"ankle_gain": ANKLE_GAIN / stiffer / scale**0.5}
+    slowest = min(fitting.servo(motors[role], role, 1.0).speed for role in (HIP_PITCH, KNEE))
+    slower = slowest * scale**0.5 / REFERENCE_SPEED
+    if slower < 1.0:
+        found["climb_speed"] = CLIMB_SPEED * slower * scale**0.5
+        found["climb_lift_speed"] = CLIMB_LIFT_SPEED * slower * scale**0.5
+    return found
 
 
 def draft_motors(
