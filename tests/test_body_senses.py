@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from treadwell._core import BodySenses, Servos
 from treadwell.random_streams import stream
+from treadwell.robot.followers import Tie
 from treadwell.robot.motor_limits import MotorLimits
 from treadwell.senses.body import (
     EncoderSenses,
@@ -55,13 +56,13 @@ def senses(
     *,
     quantum: float = 0.0,
     offsets: tuple[float, float] = (0.0, 0.0),
-    followers: Mapping[int, int] = MappingProxyType({}),
+    ties: Mapping[int, Tie] = MappingProxyType({}),
     foot_noise: tuple[float, float] = (0.0, 0.0),
     seed: int = 0,
 ) -> BodySenses:
     return body_senses(
         MODEL,
-        EncoderSenses(("two", "one"), quantum, np.array(offsets), followers),
+        EncoderSenses(("two", "one"), quantum, np.array(offsets), ties),
         "imu",
         imu,
         FootSenses(SOLES, *foot_noise),
@@ -90,7 +91,7 @@ def test_encoders_read_their_joints_motors_and_offsets_in_quanta() -> None:
     positions, velocities = senses().read(data, 0, None)[:2]
     assert positions.tolist() == [-0.7654321, 0.1234567]
     assert velocities.tolist() == [-2.5, 1.5]
-    read = senses(quantum=QUANTUM, offsets=(0.01, 0.2), followers={1: 0}).read(data, 0, leading())
+    read = senses(quantum=QUANTUM, offsets=(0.01, 0.2), ties={1: Tie(0)}).read(data, 0, leading())
     assert read[0][0] == read[0][1] == pytest.approx(-0.2554321, abs=QUANTUM)
     assert read[1][0] == read[1][1] == pytest.approx(-2.5, abs=0.2)
     assert data.joint("one").qvel == 1.5

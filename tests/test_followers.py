@@ -32,7 +32,8 @@ def edited(tmp_path: Path) -> Edit:
 @pytest.mark.parametrize(
     ("old", "new"),
     [
-        ('polycoef="0 1 0 0 0"', 'polycoef="0 -1 0 0 0"'),
+        ('polycoef="0 1 0 0 0"', 'polycoef="0 0 0 0 0"'),
+        ('polycoef="0 1 0 0 0"', 'polycoef="0 1 0.5 0 0"'),
         ('joint2="left_hip_yaw_pitch"', 'joint2="right_hip_roll" active="false"'),
         ('joint1="right_hip_yaw_pitch"', 'joint1="right_hip_roll"'),
     ],

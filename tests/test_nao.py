@@ -11,6 +11,7 @@ from treadwell.episode import Episode
 from treadwell.physics.simulation import Simulation
 from treadwell.protocols import JointTargets
 from treadwell.random_streams import RandomStreams
+from treadwell.robot.followers import Tie
 from treadwell.robot.load import Robot, load_robot
 from treadwell.scenario.model import Sensors as Settings
 from treadwell.senses.sensors import Sensors
@@ -51,7 +52,7 @@ def test_23_motors_turn_24_joints(nao: Robot) -> None:
     assert len(nao.joints) == 24
     assert len(nao.actuators) == nao.nominal.nu == 23
     leader, follower = indices(nao)
-    assert nao.followers == {follower: leader}
+    assert nao.ties == {follower: Tie(leader)}
     joints = [link["joint"] for link in nao.description()["links"] if link["joint"]]
     follows = {joint["name"]: joint["follows"] for joint in joints if joint["follows"]}
     assert follows == {TIED[1]: TIED[0]}

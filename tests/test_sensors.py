@@ -217,7 +217,7 @@ def test_a_robot_without_errors_in_its_file_has_exact_noisy_senses() -> None:
     exact = SimpleNamespace(
         file=ROBOT.file.model_copy(update=tables),
         joints=ROBOT.joints,
-        followers=ROBOT.followers,
+        ties=ROBOT.ties,
         nominal=ROBOT.nominal,
     )
     one = Sensors(world.model, exact, Settings(), RandomStreams(0)).observe(world.data, 0)

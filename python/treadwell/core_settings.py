@@ -105,7 +105,7 @@ def navigation_settings(navigation: Navigation, of_robot: Mapping[str, Any]) -> 
     return {**navigation.slots(), **tables}
 
 
-def told_map(scenario: Scenario, course: "Course") -> Octree | None:
+def told_map(scenario: Scenario, robot: "Robot", course: "Course") -> Octree | None:
     """Return the map that the robot is told, None when no component needs it and nobody asks.
 
     A table `[navigation.static_map]` asks for it: a component of the user's may read it.
@@ -121,7 +121,7 @@ def told_map(scenario: Scenario, course: "Course") -> Octree | None:
 
     where = str(scenario.path or scenario.name)
     table = scenario.navigation.parameters().get("static_map", {})
-    return told_octree(course, table, scenario.folder, where)
+    return told_octree(course, table, scenario.folder, where, robot.scale)
 
 
 def navigation_parameters(scenario: Scenario, robot: "Robot") -> dict[str, Any]:

@@ -154,7 +154,7 @@ class Episode:
         if self.ablation:
             given["localizer"] = TruthLocalizer(self.judge, self.simulation.data)
         told = core_settings(scenario, self.robot, self.course)
-        static_map = told_map(scenario, self.course)
+        static_map = told_map(scenario, self.robot, self.course)
         self.core_input = CoreInput(told, self.robot.file.navigation, static_map, paths)
         self.pilot = build_core(scenario, told, given, static_map)
 

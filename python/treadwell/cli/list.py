@@ -34,22 +34,25 @@ def check_kind(kind: str) -> None:
         )
 
 
-def listed(kinds: Sequence[str], name: str | None = None) -> dict[str, Any]:
+def listed(
+    kinds: Sequence[str], name: str | None = None, robot: str | None = None
+) -> dict[str, Any]:
     """Return what there is of each kind, as plain data.
 
     Args:
         kinds: of what the function `kinds` returns.
         name: whose parameters; None: all.
+        robot: the robot whose defaults the parameters have; None: no robot's.
 
     Raises:
-        InputError: nothing has parameters by that name.
+        InputError: nothing has parameters by that name, or there is no such robot.
     """
     makers: dict[str, Callable[[], Any]] = {
         "scenarios": _scenarios,
         "robots": _robots,
         "components": _components,
         "experiments": _experiments,
-        PARAMETERS: lambda: _parameters(name),
+        PARAMETERS: lambda: _parameters(name, robot),
     }
     return {
         kind: makers[kind]() if kind in makers else _of_slot(kind.removesuffix("s"))
@@ -138,12 +141,14 @@ def _experiments() -> list[dict[str, Any]]:
     ]
 
 
-def _parameters(name: str | None) -> list[dict[str, Any]]:
+def _parameters(name: str | None, robot: str | None) -> list[dict[str, Any]]:
     from dataclasses import asdict
 
     from treadwell.reference.parameters import find_parameters
+    from treadwell.robot.load import load_robot
 
-    return [asdict(parameter) for parameter in find_parameters(name)]
+    of_robot = None if robot is None else load_robot(robot)
+    return [asdict(parameter) for parameter in find_parameters(name, of_robot)]
 
 
 def _shown(value: object) -> str:

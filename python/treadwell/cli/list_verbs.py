@@ -42,6 +42,15 @@ def list_(
         ),
     ] = None,
     *,
+    robot: Annotated[
+        str | None,
+        typer.Option(
+            "--robot",
+            metavar="NAME",
+            help="Whose defaults `list parameters` shows: a robot's name or folder.",
+            autocompletion=completion.robots,
+        ),
+    ] = None,
     as_json: JsonOption = False,
 ) -> int:
     """Show what there is to choose from: scenarios, robots, components, experiments.
@@ -54,7 +63,9 @@ def list_(
         cli_list.check_kind(what)
     if name is not None and what != cli_list.PARAMETERS:
         raise InputError("NAME: only `list parameters` takes one")
-    document = cli_list.listed([what] if what else cli_list.WITHOUT_KIND, name)
+    if robot is not None and what != cli_list.PARAMETERS:
+        raise InputError("--robot: only `list parameters` takes one")
+    document = cli_list.listed([what] if what else cli_list.WITHOUT_KIND, name, robot)
     if as_json:
         write_json(document)
     else:

@@ -22,7 +22,7 @@ MOST_VOXELS: Final = 2**24
 """Voxels that the box around a map may have: what a localizer keeps of each is 8 bytes."""
 
 RESOLUTION: Final = 0.04
-"""Metres: side of a voxel where `[navigation.static_map]` does not say it."""
+"""Metres, times the robot's scale: side of a voxel where `[navigation.static_map]` says none."""
 
 LEAST_THICKNESS: Final = 1.000001
 """Voxels: what is thinner counts as thick as this, so that it holds a middle wherever it stands."""
@@ -34,7 +34,9 @@ KEYS: Final = ("file", "resolution", "surfaces", "tuning")
 """Of the table `[navigation.static_map]`. What the last two hold the core checks."""
 
 
-def told_octree(course: Course, table: Mapping[str, object], folder: Path, where: str) -> Octree:
+def told_octree(
+    course: Course, table: Mapping[str, object], folder: Path, where: str, scale: float = 1.0
+) -> Octree:
     """Return the map by the table `[navigation.static_map]`: that of a file, or of the course.
 
     Args:
@@ -42,11 +44,12 @@ def told_octree(course: Course, table: Mapping[str, object], folder: Path, where
         table: as the user wrote it.
         folder: the scenario file's, in which the map's file lies.
         where: the scenario's name for an error.
+        scale: how large the robot is against `qrio`.
 
     Raises:
         InputError: the table is bad, the file broken, or the course too large.
     """
-    resolution = map_resolution(table, where)
+    resolution = map_resolution(table, where, scale)
     if "file" not in table:
         return static_map(course, resolution, where)
     fault = map_file_fault(table, folder)
@@ -58,12 +61,13 @@ def told_octree(course: Course, table: Mapping[str, object], folder: Path, where
         raise InputError(f"{where}: navigation.static_map.file: {error}") from None
 
 
-def map_resolution(table: Mapping[str, object], where: str) -> float:
+def map_resolution(table: Mapping[str, object], where: str, scale: float = 1.0) -> float:
     """Return the side of a voxel, metres, by the table `[navigation.static_map]`.
 
     Args:
         table: as the user wrote it.
         where: the scenario's name for an error.
+        scale: how large the robot is against `qrio`.
 
     Raises:
         InputError: there is another key, or the resolution cannot be.
@@ -73,7 +77,7 @@ def map_resolution(table: Mapping[str, object], where: str) -> float:
             raise InputError(
                 f"{where}: navigation.static_map.{key}: unknown key; allowed: {', '.join(KEYS)}"
             )
-    value = table.get("resolution", RESOLUTION)
+    value = table.get("resolution", RESOLUTION * scale)
     if (
         isinstance(value, bool)
         or not isinstance(value, int | float)

@@ -1,5 +1,6 @@
 """What an agent can do: walk with a velocity and look, or put one foot after the other."""
 
+import math
 from collections.abc import Mapping
 from typing import Any, Final, Protocol
 
@@ -12,12 +13,13 @@ from treadwell.protocols import Decision, Footstep
 from treadwell.scenario.messages import shown
 
 FASTEST: Final = (0.15, 0.1, 0.5)
-"""(forward m/s, left m/s, counter-clockwise rad/s) that 1 stands for."""
+"""(forward m/s, left m/s, counter-clockwise rad/s) that 1 stands for
+in a robot of `qrio`'s size; its own follows its scale."""
 STILL: Final = 0.05
 """To ask for less than this of each is to stand."""
 WIDEST_PAN_RAD: Final = 0.8
 LONGEST_STEP: Final = (0.1, 0.03, 0.3, 0.05)
-"""(forward m, outwards m, turn outwards rad, height m) that 1 stands for."""
+"""(forward m, outwards m, turn outwards rad, height m) that 1 stands for, likewise."""
 LONGEST_STEP_TICKS: Final = 600
 """Control ticks after which a footstep that has not landed is given up."""
 
@@ -79,10 +81,13 @@ class VelocityActions:
     1 is what `FASTEST` says; the walker keeps it within what the gait can do.
     """
 
-    def __init__(self, period_ticks: int) -> None:
-        """Take the camera's period, control ticks."""
+    def __init__(self, period_ticks: int, scale: float = 1.0) -> None:
+        """Take the camera's period, control ticks, and how large the robot is against `qrio`."""
         self.space = gymnasium.spaces.Box(-1.0, 1.0, (5,), np.float32)
         self._period_ticks = period_ticks
+        root = math.sqrt(scale)
+        ahead, left, turn = FASTEST
+        self._fastest = (ahead * root, left * root, turn / root)
 
     def decision(self, action: Any) -> Decision:  # noqa: ANN401
         """Walk, or stand where next to nothing is asked for."""
@@ -92,7 +97,9 @@ class VelocityActions:
         gaze = gaze_of(pan, down)
         if max(map(abs, shares)) < STILL:
             return Decision("stand", gaze=gaze)
-        ahead, left, turn = (most * share for most, share in zip(FASTEST, shares, strict=True))
+        ahead, left, turn = (
+            most * share for most, share in zip(self._fastest, shares, strict=True)
+        )
         return Decision("walk", velocity=(ahead, left, turn), gaze=gaze)
 
     def is_over(self, ticks: int, _situation: Situation) -> bool:
@@ -108,8 +115,17 @@ class FootstepActions:
     other; 1 is what `LONGEST_STEP` says, and inwards a foot does not go.
     """
 
-    def __init__(self, period_ticks: int, stance_m: float, sole_m: float) -> None:
-        """Take the camera's period, the distance between the feet, and the length of a sole."""
+    def __init__(
+        self, period_ticks: int, stance_m: float, sole_m: float, scale: float = 1.0
+    ) -> None:
+        """Take what the robot is like.
+
+        Args:
+            period_ticks: the camera's period, control ticks.
+            stance_m: the distance between the feet, m.
+            sole_m: the length of a sole, m.
+            scale: how large the robot is against `qrio`.
+        """
         self.space = gymnasium.spaces.Dict(
             {
                 "foot": gymnasium.spaces.Discrete(3),
@@ -120,6 +136,8 @@ class FootstepActions:
         self._period_ticks = period_ticks
         self._half_stance_m = 0.5 * stance_m
         self._half_sole_m = 0.5 * sole_m
+        ahead, outwards, turn, height = LONGEST_STEP
+        self._longest = (ahead * scale, outwards * scale, turn, height * scale)
         self._steps = False
         self._lifted = False
 
@@ -137,7 +155,7 @@ class FootstepActions:
         if not self._steps:
             return Decision("stand", gaze=gaze)
         ahead, outwards, turn, height = (
-            most * share for most, share in zip(LONGEST_STEP, shares, strict=True)
+            most * share for most, share in zip(self._longest, shares, strict=True)
         )
         side, sign = ("left", 1.0) if foot == 1.0 else ("right", -1.0)
         step = Footstep(

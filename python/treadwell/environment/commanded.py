@@ -23,6 +23,7 @@ class Commanded:
         decision: what the action asks for.
         situation: of the last tick; None before the first.
         arrived: whether it has said so.
+        level_m: heights so near are one level, m.
     """
 
     def __init__(self, goal_height: float | None) -> None:
@@ -31,6 +32,7 @@ class Commanded:
         self.situation: Situation | None = None
         self.arrived = False
         self._goal_height = goal_height
+        self.level_m = LEVEL_M
 
     def next(self, situation: Situation) -> Decision:
         """Return what the action asks for, or the arrival."""
@@ -39,7 +41,7 @@ class Commanded:
         away = math.dist((x, y), situation.goal)
         if not situation.last_goal:
             return replace(self.decision, goal_passed=away <= situation.goal_radius)
-        level = self._goal_height is None or abs(z - self._goal_height) <= LEVEL_M
+        level = self._goal_height is None or abs(z - self._goal_height) <= self.level_m
         self.arrived |= level and away <= ARRIVED * situation.goal_radius
         if self.arrived:
             return Decision("arrived", gaze=self.decision.gaze, outcome="goal_reached")

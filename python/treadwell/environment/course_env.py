@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.environment.actions import Actions, FootstepActions, VelocityActions
-from treadwell.environment.commanded import Commanded, NoPlanner
+from treadwell.environment.commanded import LEVEL_M, Commanded, NoPlanner
 from treadwell.environment.height_scan import HeightScan
 from treadwell.environment.observations import Observed, observation_space, observed
 from treadwell.environment.top_view import TopView
@@ -217,6 +217,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         self._episode = Episode(
             made, user_code=self._user_code, behaviour=self._behaviour, planner=NoPlanner()
         )
+        self._behaviour.level_m = LEVEL_M * self._episode.robot.scale
         self._verdict: Verdict | None = None
         self._depth: NDArray[np.float32] | None = None
         self._actions = self._make_actions(self._episode)
@@ -225,11 +226,11 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         file = episode.robot.file
         period_ticks = max(1, round(1e9 * file.camera.period / TICK_NS))
         if self._kind == "velocity":
-            return VelocityActions(period_ticks)
+            return VelocityActions(period_ticks, episode.robot.scale)
         left, right = episode.judge.truth.soles(episode.simulation.data)
         stance_m = math.dist((left.x, left.y), (right.x, right.y))
         soles = [leg.sole.length for leg in (file.legs.left, file.legs.right)]
-        return FootstepActions(period_ticks, stance_m, min(soles))
+        return FootstepActions(period_ticks, stance_m, min(soles), episode.robot.scale)
 
     def _tick(self) -> Verdict | None:
         """Go on by a control tick and return how it all ended, None while it goes on."""

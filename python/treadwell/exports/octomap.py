@@ -57,10 +57,11 @@ def export_course(scenario: str, out: Path) -> Sequence[Path]:
     from treadwell.scenario.loading import load_scenario
 
     made = load_scenario(scenario)
-    course = build_course(made, load_robot(made.robot))
+    robot = load_robot(made.robot)
+    course = build_course(made, robot)
     table = made.navigation.parameters().get("static_map", {})
     where = str(made.path or made.name)
-    return write_octree(told_octree(course, table, made.folder, where), out)
+    return write_octree(told_octree(course, table, made.folder, where, robot.scale), out)
 
 
 def write_octree(tree: Octree, out: Path) -> list[Path]:

@@ -19,6 +19,15 @@ _FILES: Final = {
     "map": ("result.json of a map", "Every key of the `result.json` that `treadwell map` writes."),
 }
 
+_SCALE = [
+    "The defaults are those of a robot whose legs are as long as `qrio`'s. Of one whose legs are s",
+    "times as long (`scale`, under `[robot]` of robot.toml) those of `[gait]` and `[navigation]`",
+    "follow by their units: lengths are multiplied by s, times and speeds by the root of s, rates",
+    "divided by it; angles and accelerations stay, and forces go with the mass. What is of the",
+    "camera, of a sensor, of the world or of the numerics does not follow, and says so beside its",
+    "unit. With `--robot NAME` the list has a robot's own defaults.",
+]
+
 
 def pages() -> dict[str, str]:
     """Return file name -> text, of the folder docs/reference."""
@@ -36,7 +45,7 @@ def _index() -> str:
         "",
         "Parameters, also by `treadwell list parameters [NAME]`. Where its bounds do not say",
     ]
-    lines += ["otherwise, a number is 0 or from 1e-9 to 1e9 in size.", ""]
+    lines += ["otherwise, a number is 0 or from 1e-9 to 1e9 in size.", "", *_SCALE, ""]
     for table in all_tables():
         lines.append(f"- [`[{table.key}]`](parameters/{table.name}.md): {_about(table)}")
     return "\n".join(lines) + "\n"
@@ -59,7 +68,8 @@ def _parameters(table: ParameterTable) -> str:
     groups: dict[str, list[list[str]]] = {}
     for row in table.parameters:
         group, _, name = row.key.rpartition(".")
-        cells = [f"`{name}`", f"`{shown(row.default)}`", row.unit, row.bounds, row.meaning]
+        unit = row.unit if row.owner is None else f"{row.unit}, of {row.owner}"
+        cells = [f"`{name}`", f"`{shown(row.default)}`", unit, row.bounds, row.meaning]
         groups.setdefault(group, []).append([*cells, row.source or ""])
     for group, rows in groups.items():
         if group != table.key:

@@ -1,14 +1,17 @@
 """The core's parameters, each with default, unit, bounds, meaning and source."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from treadwell import _core
 from treadwell.components import RENAMED
 from treadwell.errors import InputError
 from treadwell.scenario.messages import nearest
+
+if TYPE_CHECKING:
+    from treadwell.robot.load import Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +25,9 @@ class Parameter:
         bounds: what is allowed, in words.
         meaning: a sentence.
         source: paper and equation, where it comes from one.
+        owner: whose it is (`camera`, `sensor`, `world`, `numerics`), where it does not follow the
+            robot's scale though its unit has a length or a time.
+        scales: whether its default follows the robot's scale.
         tuning: whether it stands under `tuning`, where few will want to turn it.
     """
 
@@ -31,6 +37,8 @@ class Parameter:
     bounds: str
     meaning: str
     source: str | None
+    owner: str | None
+    scales: bool
     tuning: bool
 
 
@@ -57,10 +65,15 @@ class ParameterTable:
 
 
 @cache
-def all_tables() -> tuple[ParameterTable, ...]:
-    """Return all tables, the components' and those of the stages that are not chosen by name."""
+def all_tables(robot: "Robot | None" = None) -> tuple[ParameterTable, ...]:
+    """Return all tables, the components' and those of the stages that are not chosen by name.
+
+    Args:
+        robot: whose defaults; None: `qrio`'s size, and no robot's own.
+    """
     tables = []
-    for told in json.loads(_core.parameters()):
+    description = None if robot is None else json.dumps(robot.description())
+    for told in json.loads(_core.parameters(description)):
         rows = []
         for row in told["parameters"]:
             row.pop("schema")
@@ -69,16 +82,18 @@ def all_tables() -> tuple[ParameterTable, ...]:
     return tuple(sorted(tables, key=lambda table: table.key))
 
 
-def find_parameters(name: str | None = None) -> list[Parameter]:
+def find_parameters(name: str | None = None, robot: "Robot | None" = None) -> list[Parameter]:
     """Return the parameters of a table, of what stands within it, or of all.
 
     Args:
         name: a component's or stage's (`fog`), or the beginning of a dotted key.
+        robot: whose defaults: those that follow its scale, and over them its own; None: `qrio`'s
+            size, and no robot's own.
 
     Raises:
         InputError: there is nothing of that name; the message says which tables there are.
     """
-    every = [row for table in all_tables() for row in table.parameters]
+    every = [_of_robot(row, robot) for table in all_tables(robot) for row in table.parameters]
     if name is None:
         return every
     first, dot, rest = name.partition(".")
@@ -93,3 +108,15 @@ def find_parameters(name: str | None = None) -> list[Parameter]:
             f"and the beginning of a key{nearest(name, names)}"
         )
     return found
+
+
+def _of_robot(row: Parameter, robot: "Robot | None") -> Parameter:
+    """Return a parameter with what the robot's file says of it."""
+    if robot is None:
+        return row
+    said: Any = {"gait": robot.file.gait, "navigation": robot.file.navigation}
+    for word in row.key.split("."):
+        if not isinstance(said, dict) or word not in said:
+            return row
+        said = said[word]
+    return replace(row, default=said)

@@ -144,7 +144,8 @@ def _static_map(front: Front, recorded: Scenario, scenario: Scenario, path: Path
     from treadwell.course.build import build_course
     from treadwell.robot.load import load_robot
 
-    return told_map(scenario, build_course(scenario, load_robot(scenario.robot)))
+    robot = load_robot(scenario.robot)
+    return told_map(scenario, robot, build_course(scenario, robot))
 
 
 def _table(front: Front, name: str, path: Path) -> dict[str, Any]:

@@ -59,18 +59,22 @@ def complete(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
 
 
 def prepare(spec: mujoco.MjSpec) -> None:
-    """Prepare a specification for its simulation: our time step, and friction in the servos alone.
+    """Prepare a specification for its simulation: our time step, motors' friction in the servos.
 
     A control is then the motor's torque less the friction: where the motor brakes at its peak that
     is more than the peak, which a control's range must leave room for.
     """
     friction = {joint.name: joint.frictionloss for joint in spec.joints}
     ties = [tie for tie in spec.equalities if tie.type == mujoco.mjtEq.mjEQ_JOINT]
+    turned = {actuator.target for actuator in spec.actuators} | {tie.name1 for tie in ties}
     for joint in spec.joints:
-        joint.frictionloss = 0.0
+        if joint.name in turned:
+            joint.frictionloss = 0.0
     for actuator in spec.actuators:
-        followers = [tie.name1 for tie in ties if tie.name2 == actuator.target]
-        more = sum(friction.get(name, 0.0) for name in (actuator.target, *followers))
+        more = friction.get(actuator.target, 0.0)
+        for tie in ties:
+            if tie.name2 == actuator.target:
+                more += abs(tie.data[1]) * friction.get(tie.name1, 0.0)
         low, high = actuator.ctrlrange
         actuator.ctrlrange = [low - more, high + more]
     spec.option.timestep = PHYSICS_STEP

@@ -86,7 +86,7 @@ def _check_ties(mjcf: Path, model: mujoco.MjModel) -> None:
         if not fits or tied[i] in driven or int(model.eq_obj2id[i]) not in driven:
             raise InputError(
                 f"{mjcf}: equality {model.equality(i).name!r} must tie a joint1 without a motor "
-                'to a joint2 with one, by polycoef="0 1 0 0 0"'
+                'to a joint2 with one, by polycoef="offset ratio 0 0 0"'
             )
 
 
@@ -120,16 +120,19 @@ class _Checker(Lookup):
             joint = self.find(f"{key}.joints", name, self.joints, "joint")
             bodies.append(int(model.jnt_bodyid[joint]))
         for above, below, name in zip(bodies, bodies[1:], leg.joints[1:], strict=False):
-            if model.body_parentid[below] != above:
+            if above == below or not self._carries(above, below):
                 self.fail(
                     f"{key}.joints",
-                    f"must be a chain of six from the hip down, but {name!r} "
+                    f"must be a chain from the hip down, but {name!r} "
                     f"does not follow the one before it in {self.mjcf.name}",
                 )
         link = self.find(f"{key}.sole.link", leg.sole.link, self.links, "link")
-        if link != bodies[-1]:
+        if not self._carries(bodies[-1], link):
             end = model.body(bodies[-1]).name
-            self.fail(f"{key}.sole.link", f"must be the leg's last, {end!r}, got {leg.sole.link!r}")
+            self.fail(
+                f"{key}.sole.link",
+                f"must be the leg's last, {end!r}, or fixed to it, got {leg.sole.link!r}",
+            )
         self._check_forces(f"{key}.forces", leg)
         data = mujoco.MjData(model)
         mujoco.mj_resetDataKeyframe(model, data, model.key("stand").id)
@@ -143,6 +146,12 @@ class _Checker(Lookup):
                 f"must lie flat on the ground in {self._stance()}, "
                 f"its centre is {1e3 * height:.1f} mm above it, and it is tilted by {tilt:.3f} rad",
             )
+
+    def _carries(self, above: int, below: int) -> bool:
+        """Whether a link is another one or carries it."""
+        while below > above:
+            below = int(self.model.body_parentid[below])
+        return below == above
 
     def _stance(self) -> str:
         """Return which place says how the robot stands."""
@@ -219,6 +228,8 @@ class _Checker(Lookup):
             above.add(link)
             link = int(model.body_parentid[link])
         for key, name in (("head.pan", file.head.pan), ("head.tilt", file.head.tilt)):
+            if name is None:
+                continue
             joint = self.find(key, name, self.joints, "joint")
             if int(model.jnt_bodyid[joint]) not in above:
                 self.fail(key, f"joint {name!r} does not move the camera")

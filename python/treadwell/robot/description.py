@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.robot.file import LegTable, RobotFile
-from treadwell.robot.followers import followers
+from treadwell.robot.followers import ties
 from treadwell.robot.motor_limits import MotorLimits
 
 Floats = NDArray[np.float64]
@@ -120,7 +120,7 @@ def _joint(model: mujoco.MjModel, joint: int, limits: MotorLimits) -> dict[str, 
     if joint < 0:
         return None
     order = joint - 1
-    leader = followers(model).get(joint)
+    tie = ties(model).get(joint)
     return {
         "name": model.joint(joint).name,
         "axis": model.jnt_axis[joint].tolist(),
@@ -130,5 +130,7 @@ def _joint(model: mujoco.MjModel, joint: int, limits: MotorLimits) -> dict[str, 
         "no_load_speed": float(limits.no_load_speed[order]),
         "kp": float(limits.kp[order]),
         "kv": float(limits.kv[order]),
-        "follows": None if leader is None else model.joint(leader).name,
+        "follows": None if tie is None else model.joint(tie.leader).name,
+        "ratio": 1.0 if tie is None else tie.ratio,
+        "offset": 0.0 if tie is None else tie.offset,
     }

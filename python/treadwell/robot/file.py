@@ -22,6 +22,7 @@ from treadwell.robot.tables import (
     Orientation,
     Position,
     RateError,
+    Scale,
     Share,
     Speed,
     Stiffness,
@@ -39,6 +40,10 @@ class RobotTable(Table):
     """One line for `treadwell list robots`."""
     model: Annotated[str, StringConstraints(pattern=r"^[\w.-]+\.(xml|urdf)$")]
     """The MJCF or URDF file in the same folder."""
+    scale: Scale | None = None
+    """How large it is against `qrio`, of which the defaults of all settings are: lengths of theirs
+    are multiplied by it; default: the length of its legs over that of `qrio`'s.
+    """
 
 
 class BodyTable(Table):
@@ -56,9 +61,9 @@ class BodyTable(Table):
     """
     width: Length | None = None
     """Across, the same box, m; default: the cylinder's diameter."""
-    foot_side: Length = 0.06
+    foot_side: Length | None = None
     """How far to each side of the middle the ground matters to the feet, m: a little less than the
-    outer edges of the soles.
+    outer edges of the soles; default: three quarters of where those are in the stance.
     """
 
 
@@ -94,7 +99,7 @@ class LegTable(Table):
     """`[legs.*]`: a leg."""
 
     joints: Annotated[tuple[Name, ...], Field(min_length=5, max_length=7)]
-    """The joints from the hip down, five to seven, in any order."""
+    """The joints from the hip down, five to seven, in whatever order the model has them."""
     forces: Name
     """The contact sensor of the sole: its net force, and where that acts; added where the MJCF has
     none.
@@ -132,19 +137,19 @@ class TrunkTable(Table):
 
 
 class HeadTable(Table):
-    """`[head]`: the joints that turn the camera."""
+    """`[head]`: the joints that turn the camera, and where the eyes are."""
 
-    pan: Name
-    """The joint that turns it left and right."""
-    tilt: Name
-    """The joint that nods."""
-    eye_height: Length = 0.45
+    pan: Name | None = None
+    """The joint that turns it left and right, where there is one."""
+    tilt: Name | None = None
+    """The joint that nods, where there is one."""
+    eye_height: Length | None = None
     """Height of the eyes above the ground while the robot stands, as far as turning the head to a
-    place needs it, m.
+    place needs it, m; default: the camera's in the stance.
     """
-    eye_ahead: Coordinate = 0.04
+    eye_ahead: Coordinate | None = None
     """How far the eyes are ahead of the robot's middle, as far as turning the head to a place needs
-    it, m.
+    it, m; default: the camera's in the stance.
     """
 
 
@@ -252,7 +257,7 @@ class RobotFile(Table):
     """Both legs."""
     trunk: TrunkTable = TrunkTable()
     """What is between pelvis and torso."""
-    head: HeadTable
+    head: HeadTable = HeadTable()
     """The joints that turn the camera."""
     arms: ArmsTable = ArmsTable()
     """Where the arms are held."""

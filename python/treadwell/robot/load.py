@@ -20,15 +20,20 @@ from treadwell.robot.additions import complete, prepare
 from treadwell.robot.check import check_robot
 from treadwell.robot.description import describe
 from treadwell.robot.file import MotorsTable, RobotFile
-from treadwell.robot.followers import followers
+from treadwell.robot.followers import Tie, ties
 from treadwell.robot.keyframes import STAND
 from treadwell.robot.motor_limits import MotorLimits, rotors
 from treadwell.robot.reading import read_robot_file
+from treadwell.robot.size import Stance, scale_of, with_size
 from treadwell.scenario.messages import shortened
 
 MOST_FILES = 2000
 LARGEST_FOLDER = 500 << 20
 """Files of a robot's folder, and their bytes."""
+NO_MOTOR = MotorsTable.model_construct(
+    joints=(), peak_torque=0.0, stall_torque=None, no_load_speed=1.0, kp=0.0, kv=0.0
+)
+"""Of a joint that only what is around it turns."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,15 +92,18 @@ class Robot:
         return tuple(self.nominal.actuator(of_joint[joint]).name for joint in sorted(of_joint))
 
     @cached_property
-    def followers(self) -> dict[int, int]:
-        """For each joint without a motor the one whose motor turns it too, both in joint order."""
-        tied = followers(self.nominal)
-        return {follower - 1: leader - 1 for follower, leader in tied.items()}
+    def ties(self) -> dict[int, Tie]:
+        """How each joint without a motor follows the one whose motor turns it, in joint order."""
+        return {
+            follower - 1: tie._replace(leader=tie.leader - 1)
+            for follower, tie in ties(self.nominal).items()
+        }
 
     @cached_property
     def driven(self) -> tuple[int, ...]:
         """The joints that have a motor of their own, in joint order."""
-        return tuple(sorted(int(joint) - 1 for joint in self.nominal.actuator_trnid[:, 0]))
+        motors = self.nominal.actuator_trnid[: self.nominal.nu, 0]
+        return tuple(sorted(int(joint) - 1 for joint in motors))
 
     @cached_property
     def stand_qpos(self) -> NDArray[np.float64]:
@@ -108,20 +116,34 @@ class Robot:
         return self.stand_qpos[7:].copy()
 
     @cached_property
+    def scale(self) -> float:
+        """How large the robot is against `qrio`, of which the defaults of all settings are."""
+        return scale_of(self._stance, self.file)
+
+    @cached_property
+    def _stance(self) -> Stance:
+        return Stance.of(self.nominal, self.stand_qpos)
+
+    @cached_property
     def limits(self) -> MotorLimits:
-        """What the motors can do, in joint order; a follower's is its leader's."""
+        """What the motors can do, in joint order.
+
+        A follower's is its leader's by their gear, and that of a joint that nothing turns is 0.
+        """
         model = self.nominal
         inertia, friction = rotors(
-            model.dof_armature[6:], model.dof_M0[6:], model.dof_frictionloss[6:], self.followers
+            model.dof_armature[6:], model.dof_M0[6:], model.dof_frictionloss[6:], self.ties
         )
-        leaders = [self.followers.get(i, i) for i in range(len(self.joints))]
-        groups = [self._group(self.joints[leader]) for leader in leaders]
+        tied = [self.ties.get(i, Tie(i)) for i in range(len(self.joints))]
+        groups = [self._group(tie.leader) for tie in tied]
+        gear = np.array([abs(tie.ratio) for tie in tied])
         return MotorLimits(
-            kp=np.array([group.kp for group in groups]),
-            kv=np.array([group.kv for group in groups]),
-            peak_torque=np.array([group.peak_torque for group in groups]),
-            stall_torque=np.array([group.stall_torque or group.peak_torque for group in groups]),
-            no_load_speed=np.array([group.no_load_speed for group in groups]),
+            kp=np.array([group.kp for group in groups]) / gear**2,
+            kv=np.array([group.kv for group in groups]) / gear**2,
+            peak_torque=np.array([group.peak_torque for group in groups]) / gear,
+            stall_torque=np.array([group.stall_torque or group.peak_torque for group in groups])
+            / gear,
+            no_load_speed=np.array([group.no_load_speed for group in groups]) * gear,
             friction=friction,
             inertia=inertia,
         )
@@ -131,16 +153,13 @@ class Robot:
 
         Links, masses and mounts are read from the compiled MJCF, so that each number exists once.
         """
-        return describe(self.name, self.nominal, self.file, self.stand, self.limits)
+        told = describe(self.name, self.nominal, self.file, self.stand, self.limits)
+        return with_size(told, self.scale, self._stance, self.file)
 
-    def _group(self, joint: str) -> MotorsTable:
-        groups = self.file.motors.values()
-        return next((group for group in groups if joint in group.joints), _no_motor(joint))
-
-
-def _no_motor(joint: str) -> MotorsTable:
-    """Return what stands for the motor of a joint that has none: as good as nothing."""
-    return MotorsTable(joints=(joint,), peak_torque=0.001, no_load_speed=1.0, kp=0.001, kv=0.0)
+    def _group(self, joint: int) -> MotorsTable:
+        name = self.joints[joint]
+        of_joint = (group for group in self.file.motors.values() if name in group.joints)
+        return next(of_joint, NO_MOTOR.model_copy(update={"joints": (name,)}))
 
 
 def load_robot(name_or_path: str | Path) -> Robot:

@@ -7,6 +7,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell.robot.followers import Tie
+
 Floats = NDArray[np.float64]
 
 LEAST_SHARE: Final = 0.1
@@ -37,7 +39,7 @@ class MotorLimits:
 
 
 def rotors(
-    armature: Floats, joint_inertia: Floats, friction: Floats, followers: Mapping[int, int]
+    armature: Floats, joint_inertia: Floats, friction: Floats, tied: Mapping[int, Tie]
 ) -> tuple[Floats, Floats]:
     """Return what turns with each motor, (n,) kg·m², and the dry friction on it, (n,) N·m.
 
@@ -47,12 +49,12 @@ def rotors(
         armature: (n,) kg·m², the motor's inertia at its joint, as the model has it.
         joint_inertia: (n,) kg·m², all that the joint moves.
         friction: (n,) N·m.
-        followers: joints without a motor, each with the one whose motor turns it too.
+        tied: joints without a motor, each with how it follows the one whose motor turns it too.
     """
     inertia = np.maximum(armature, LEAST_SHARE * joint_inertia)
     friction = friction.copy()
-    for follower, leader in followers.items():
-        for array in (inertia, friction):
-            array[leader] += array[follower]
+    for follower, tie in tied.items():
+        for array, share in ((inertia, tie.ratio**2), (friction, abs(tie.ratio))):
+            array[tie.leader] += share * array[follower]
             array[follower] = 0.0
     return inertia, friction

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell._core import BodySenses
+from treadwell.robot.followers import Tie
 
 Floats = NDArray[np.float64]
 
@@ -22,13 +23,13 @@ class EncoderSenses:
         joints: names of hinges, in the robot's order.
         quantum: rad, step of the readings; 0 for exact readings and velocities.
         offsets: (n,) rad, what each encoder reads too much.
-        followers: joints without an encoder, each with the one whose encoder speaks for both.
+        ties: joints without an encoder, each with how it follows one whose encoder speaks for both.
     """
 
     joints: Sequence[str]
     quantum: float
     offsets: Floats
-    followers: Mapping[int, int] = field(default_factory=dict)
+    ties: Mapping[int, Tie] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,10 @@ def _encoders(
         "positions": [int(joint.qposadr[0]) for joint in joints],
         "velocities": [int(joint.dofadr[0]) for joint in joints],
         "quantum_rad": encoders.quantum,
-        "followers": list(encoders.followers.items()),
+        "followers": [
+            {"joint": joint, "by": tie.leader, "ratio": tie.ratio, "offset_rad": tie.offset}
+            for joint, tie in encoders.ties.items()
+        ],
         "seed": _seed(numbers),
     }
 

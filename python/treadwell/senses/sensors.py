@@ -12,6 +12,7 @@ from treadwell._core import Servos
 from treadwell.observation import Observation
 from treadwell.robot.description import focal_length
 from treadwell.robot.file import RobotFile
+from treadwell.robot.followers import Tie
 from treadwell.senses.body import (
     EncoderSenses,
     FootSenses,
@@ -91,8 +92,8 @@ class SensedRobot(Protocol):
         """The names of its joints, in joint order."""
 
     @property
-    def followers(self) -> Mapping[int, int]:
-        """Joints without a motor, each with the one that turns it, in joint order."""
+    def ties(self) -> Mapping[int, Tie]:
+        """How each joint without a motor follows the one that turns it, in joint order."""
 
     @property
     def nominal(self) -> mujoco.MjModel:
@@ -220,31 +221,33 @@ class Sensors:
         table = robot.file.encoders
         offsets = np.zeros(len(robot.joints))
         if settings.encoders == "ideal":
-            return EncoderSenses(robot.joints, 0.0, offsets, robot.followers)
+            return EncoderSenses(robot.joints, 0.0, offsets, robot.ties)
         for leg in (robot.file.legs.left, robot.file.legs.right):
             at = [self._joint_order[joint] for joint in leg.joints]
             offsets[at] = numbers.uniform(-table.leg_offset, table.leg_offset, len(at))
         for joint, offset in zip(_camera_joints(robot.file), error.offsets, strict=True):
             offsets[self._joint_order[joint]] = offset
-        return EncoderSenses(robot.joints, table.quantum, offsets, robot.followers)
+        return EncoderSenses(robot.joints, table.quantum, offsets, robot.ties)
 
 
 def _camera_joints(file: RobotFile) -> tuple[str, ...]:
     """Return the joints whose encoders make the camera's pose wrong: trunk, then neck."""
-    return (*file.trunk.joints, file.head.pan, file.head.tilt)
+    turned = (file.head.pan, file.head.tilt)
+    return (*file.trunk.joints, *(joint for joint in turned if joint is not None))
 
 
 def _camera_error(
     model: mujoco.MjModel, file: RobotFile, settings: SensorSettings, rng: np.random.Generator
 ) -> CameraError:
-    weights = [TRUNK_WEIGHT] * len(file.trunk.joints) + [1.0, 1.0]
+    joints = _camera_joints(file)
+    trunk = len(file.trunk.joints)
+    weights = [TRUNK_WEIGHT] * trunk + [1.0] * (len(joints) - trunk)
     table = file.encoders
     bounds = CameraErrorBounds(
         _either(settings.camera_roll_pitch_error, table.camera_roll_pitch_error),
         table.camera_yaw_error,
         _either(settings.camera_position_error, table.camera_position_error),
     )
-    joints = _camera_joints(file)
     return draw_camera_error(model, file.camera.name, joints, weights, bounds, rng)
 
 

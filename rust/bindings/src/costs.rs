@@ -11,6 +11,7 @@ use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods, ToPyArray, ndarray}
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use robot::Body;
+use settings::{TableDescription, overlay};
 
 use crate::error::{bad_setting, parse, run};
 
@@ -55,6 +56,17 @@ fn ground(slope: f64, roughness_m: f64) -> GroundShape {
     }
 }
 
+/// The settings that were given, as JSON, over the defaults of a robot of that size.
+fn over_sized(py: Python<'_>, body: &Body, given: &str) -> PyResult<String> {
+    let size = body.description().size();
+    let mut settings = serde_json::json!({
+        "limits": TableDescription::of::<LimitsConfig>().defaults_at(&size),
+        "traversability": TableDescription::of::<TraversabilityConfig>().defaults_at(&size),
+    });
+    overlay(&mut settings, &parse(py, given)?);
+    Ok(settings.to_string())
+}
+
 #[pymethods]
 impl PyGroundCosts {
     #[new]
@@ -62,7 +74,7 @@ impl PyGroundCosts {
     fn new(py: Python<'_>, description_json: &str, settings: &str) -> PyResult<Self> {
         let body =
             Body::new(parse(py, description_json)?).map_err(|error| bad_setting(py, &error))?;
-        let settings: CostSettings = parse(py, settings)?;
+        let settings: CostSettings = parse(py, &over_sized(py, &body, settings)?)?;
         let limits = RobotLimits::of(&body, &settings.limits);
         let limits = limits.map_err(|error| bad_setting(py, &error))?;
         let traversability = Traversability::new(settings.traversability, limits);

@@ -26,7 +26,8 @@ impl PyFootstepLayer {
         let body =
             Body::new(parse(py, description_json)?).map_err(|error| bad_setting(py, &error))?;
         let limits = ::pilot::step_limits(&body).map_err(|error| bad_setting(py, &error))?;
-        let tables = Tables::from([("footsteps".to_owned(), parse(py, settings)?)]);
+        let given = Tables::from([("footsteps".to_owned(), parse(py, settings)?)]);
+        let tables = ::pilot::sized(&given, &body.description().size());
         let config: FootstepsConfig =
             read(&tables, "footsteps").map_err(|error| bad_setting(py, &error))?;
         let layer = FootstepLayer::new(config, limits).map_err(|error| bad_setting(py, &error))?;

@@ -1,4 +1,4 @@
-//! The legs' closed form alone, and the gait that a robot's folder asks for: what can be reached, before anything walks.
+//! The legs' inverse kinematics alone, and the gait that a robot's folder asks for: what can be reached, before anything walks.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use numpy::{PyArray1, ToPyArray};
@@ -39,7 +39,7 @@ impl PyLegs {
         })
     }
 
-    /// Joint angles (6,) rad from the hip down that put the sole of `side` at (x m, y m, z m) in the torso's frame, level and
+    /// Joint angles (n,) rad from the hip down that put the sole of `side` at (x m, y m, z m) in the torso's frame, level and
     /// turned by `yaw` rad; and whether length and ranges let it get there.
     #[pyo3(signature = (side, place, yaw=0.0))]
     fn solve<'py>(
@@ -51,8 +51,10 @@ impl PyLegs {
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, bool)> {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw);
         let pose = Isometry3::from_parts(Translation3::new(place.0, place.1, place.2), turn);
-        let found = self.legs[index(py, side)?].solve(&pose);
-        Ok((found.angles_rad.to_pyarray(py), found.reached))
+        let leg = &self.legs[index(py, side)?];
+        let found = leg.solve(&pose, leg.rest_rad());
+        let angles_rad = &found.angles_rad[..leg.joints().len()];
+        Ok((angles_rad.to_pyarray(py), found.reached))
     }
 
     /// Of one leg: where its hip is in the torso's frame (x, y, z), thigh, shank, and the ankle's height over the sole, m.
@@ -60,6 +62,17 @@ impl PyLegs {
         let leg = &self.legs[index(py, side)?];
         let (thigh_m, shank_m) = leg.lengths_m();
         Ok(((*leg.hip()).into(), thigh_m, shank_m, leg.ankle_height_m()))
+    }
+
+    /// Of one leg: why its angles are found by Newton's method, where the closed form does not hold, and which turn of the sole
+    /// (`"roll"`, `"pitch"` or `"yaw"`) its five joints leave open.
+    fn solved_by(
+        &self,
+        py: Python<'_>,
+        side: &str,
+    ) -> PyResult<(Option<String>, Option<&'static str>)> {
+        let leg = &self.legs[index(py, side)?];
+        Ok((leg.not_closed().map(str::to_owned), leg.left_open()))
     }
 
     /// `[gait]` with its defaults, as JSON.

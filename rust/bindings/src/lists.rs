@@ -1,6 +1,10 @@
 //! What there is to choose from and to set: the components and the tables of settings.
 
 use pyo3::prelude::*;
+use robot::Description;
+use settings::Scale;
+
+use crate::error::parse;
 
 /// A row of `components`.
 type Row = (
@@ -26,9 +30,13 @@ pub(crate) fn tables() -> Vec<&'static str> {
     all.iter().map(|table| last(table.key)).collect()
 }
 
-/// All tables of settings as JSON, those of what is not part of a run as well: key, about, parameters, schema.
+/// All tables of settings as JSON, those of what is not part of a run as well: key, about, parameters, schema; with the defaults that
+/// follow from the size of a robot, of which a description is given as JSON.
 #[pyfunction]
-pub(crate) fn parameters() -> String {
+#[pyo3(signature = (description_json=None))]
+pub(crate) fn parameters(py: Python<'_>, description_json: Option<&str>) -> PyResult<String> {
+    let robot: Option<Description> = description_json.map(|json| parse(py, json)).transpose()?;
+    let size = robot.map_or(Scale::ONE, |robot| robot.size());
     let mut all = pilot::tables();
     all.extend_from_slice(classification::TABLES);
     all.extend_from_slice(costs::TABLES);
@@ -39,13 +47,17 @@ pub(crate) fn parameters() -> String {
     let all: Vec<_> = all
         .iter()
         .map(|table| {
+            let mut parameters = table.parameters();
+            for one in &mut parameters {
+                one.default = size.default_of(one).unwrap_or_else(|| one.default.take());
+            }
             serde_json::json!({
                 "key": table.key,
                 "about": table.about,
-                "parameters": table.parameters(),
+                "parameters": parameters,
                 "schema": table.schema(),
             })
         })
         .collect();
-    serde_json::Value::from(all).to_string()
+    Ok(serde_json::Value::from(all).to_string())
 }

@@ -8,6 +8,7 @@ use proprioception::{Proprioception, ProprioceptionConfig};
 use pyo3::prelude::*;
 use robot::Body;
 use sensing::{Frame, Observation};
+use settings::{Tables, read};
 use walking::relief::Slopes;
 use walking::{DcmWalker, Walker, WalkerSenses};
 
@@ -66,8 +67,11 @@ impl PyWalker {
     fn new(py: Python<'_>, description_json: &str) -> PyResult<Self> {
         let body =
             Body::new(parse(py, description_json)?).map_err(|error| bad_setting(py, &error))?;
+        let tables = ::pilot::sized(&Tables::new(), &body.description().size());
+        let proprioception: ProprioceptionConfig =
+            read(&tables, "proprioception").map_err(|error| bad_setting(py, &error))?;
         Ok(Self {
-            proprioception: Proprioception::new(&body, ProprioceptionConfig::default())
+            proprioception: Proprioception::new(&body, proprioception)
                 .map_err(|error| bad_setting(py, &error))?,
             walker: DcmWalker::new(&body).map_err(|error| bad_setting(py, &error))?,
             body,

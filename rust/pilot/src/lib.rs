@@ -26,7 +26,7 @@ pub use range_map::{RangeMap, SightNeeds};
 pub use registry::Components;
 pub use settings::{GoalSettings, Navigation, Settings, StartSettings};
 pub use step_limits::step_limits;
-pub use tables::tables;
+pub use tables::{sized, tables};
 pub use tick::{Pilot, Tick};
 pub use timing::{STAGES, Timing};
 pub use ways::Ways;

@@ -7,6 +7,8 @@ use planning::Goal;
 use robot::Description;
 use serde::Deserialize;
 
+use crate::tables;
+
 /// Everything the core is told at the start. Metres and radians.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -73,6 +75,13 @@ fn first_walker() -> String {
 }
 
 impl Settings {
+    /// The same with the defaults of a robot of this size.
+    pub(crate) fn sized(&self) -> Self {
+        let mut sized = self.clone();
+        sized.navigation.tables = tables::sized(&sized.navigation.tables, &sized.robot.size());
+        sized
+    }
+
     /// The robot's frame in the map at the start: the map's origin where nobody says.
     pub(crate) fn start_or_origin(&self) -> Pose<Map, Robot> {
         self.start.map_or_else(Pose::identity, Pose::from)

@@ -1,6 +1,6 @@
 //! All tables of settings: the parts', and those of the stages that are not chosen by name.
 
-use settings::TableDescription;
+use settings::{Scale, TableDescription, Tables, overlay};
 
 use crate::parts::components;
 
@@ -33,9 +33,83 @@ pub fn tables() -> Vec<TableDescription> {
     all
 }
 
+/// The tables that were given, for a robot of that size: what they do not say has the default of such a robot.
+pub fn sized(given: &Tables, scale: &Scale) -> Tables {
+    let mut all = given.clone();
+    if *scale == Scale::ONE {
+        return all;
+    }
+    for table in tables() {
+        let Some(name) = table.key.strip_prefix("navigation.") else {
+            continue;
+        };
+        let mut settings = table.defaults_at(scale);
+        if let Some(given) = given.get(name) {
+            overlay(&mut settings, given);
+        }
+        drop(all.insert(name.to_owned(), settings));
+    }
+    all
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+    use serde_json::{Value, json};
+
+    #[test]
+    fn every_unit_is_known_and_at_the_size_of_the_defaults_nothing_changes() {
+        let ten = Scale {
+            length: 10.0,
+            mass: 1000.0,
+        };
+        for table in tables() {
+            for one in table.parameters() {
+                let known = one.unit.split(", ").all(|unit| ten.factor(unit).is_some());
+                assert!(known, "{}: {}", one.key, one.unit);
+                assert_eq!(Scale::ONE.default_of(&one), None, "{}", one.key);
+            }
+            assert_eq!(table.defaults_at(&Scale::ONE), json!({}));
+        }
+        let given = Tables::from([("fog".to_owned(), json!({"cell": 0.05}))]);
+        assert_eq!(sized(&given, &Scale::ONE), given);
+    }
+
+    #[test]
+    fn what_was_given_lies_over_what_follows_from_the_size() {
+        let two = Scale {
+            length: 2.0,
+            mass: 8.0,
+        };
+        let given = Tables::from([
+            ("fog".to_owned(), json!({"cell": 0.05})),
+            ("elsewhere".to_owned(), json!({"cell": 0.05})),
+        ]);
+        let sized = sized(&given, &two);
+        assert_eq!(sized["fog"]["cell"], json!(0.05));
+        assert_eq!(sized["fog"]["layer"], json!(0.08));
+        assert_eq!(sized["fog"].get("max_range"), None);
+        assert_eq!(
+            sized["walking"]["forward_speed"],
+            json!(0.1 * 2.0_f64.sqrt())
+        );
+        assert_eq!(sized["elsewhere"], given["elsewhere"]);
+    }
+
+    proptest! {
+        #[test]
+        fn the_defaults_of_every_size_hold_their_bounds_and_each_other(length in 0.1..10.0, density in 0.3..3.0) {
+            let scale = Scale { length, mass: density * length.powi(3) };
+            for table in tables() {
+                let defaults = table.defaults_at(&scale);
+                let usable = table.check(&defaults);
+                let unset = table.key == "gait"; // Width and height of the stance are the body's.
+                let said = usable.err().map(|error| error.to_string()).unwrap_or_default();
+                prop_assert!(said.is_empty() || unset && said.contains("stance_width"), "{} at {}: {}", table.key, length, said);
+            }
+        }
+    }
 
     #[test]
     fn every_setting_has_a_meaning_that_is_a_sentence_and_one_key() {

@@ -120,8 +120,9 @@ impl Pilot {
         static_map: Option<&Arc<Octree>>,
         given: Components,
     ) -> Result<Self, PilotError> {
-        let known_map = registry::known_map(settings, static_map)?;
         let body = Body::new(settings.robot.clone())?;
+        let settings = &settings.sized();
+        let known_map = registry::known_map(settings, static_map)?;
         let (gait, _) = GaitConfig::read(&body)?;
         let mount = &body.description().camera;
         let camera = Intrinsics::from(mount);

@@ -8,7 +8,7 @@ use settings::{Tables, read};
 use stairs::{ClimbingConfig, Feet, Footing, Onward, Staircase};
 use walking::GaitConfig;
 
-use crate::{PLANNERS, PilotError, registry};
+use crate::{PLANNERS, PilotError, registry, sized};
 
 /// Plans ways for one robot.
 pub struct Ways {
@@ -28,6 +28,7 @@ impl Ways {
         let body = Body::new(robot)?;
         let (gait, _) = GaitConfig::read(&body)?;
         let feet = registry::feet(&body, &gait);
+        let tables = &sized(tables, &body.description().size());
         let needs = PlannerNeeds {
             tables,
             body: &body,

@@ -16,15 +16,15 @@ settings! {
         /// How fast a lasting tilt error becomes a bias of the stride in roll and pitch.
         stride_bias_gain: f64 = 0.02, "1/s^2", NOT_NEGATIVE;
         /// Standard deviation of the gyroscope's bias at the start.
-        gyro_bias: f64 = 0.0015, "rad/s", POSITIVE;
+        gyro_bias: f64 = 0.0015, "rad/s" of sensor, POSITIVE;
         /// Random walk of the gyroscope's bias, per square root of a second.
-        gyro_bias_drift: f64 = 1e-5, "rad/s/sqrt(s)", NOT_NEGATIVE;
+        gyro_bias_drift: f64 = 1e-5, "rad/s/sqrt(s)" of sensor, NOT_NEGATIVE;
         /// Standard deviation of the angular velocity of a robot that stands still: sensor noise and sway.
-        still_noise: f64 = 0.005, "rad/s", POSITIVE;
+        still_noise: f64 = 0.005, "rad/s" of sensor, POSITIVE;
         /// The robot stands still while its smoothed angular velocity is below this in every axis.
-        still_rate: f64 = 0.01, "rad/s", POSITIVE;
+        still_rate: f64 = 0.01, "rad/s" of sensor, POSITIVE;
         /// Time over which the angular velocity is smoothed to tell whether the robot stands still; 0 leaves it as it is.
-        still_filter_time: f64 = 0.1, "s", NOT_NEGATIVE;
+        still_filter_time: f64 = 0.1, "s" of sensor, NOT_NEGATIVE;
         /// Time for which the robot must have been still on both feet until it counts as standing still.
         still_time: f64 = 0.2, "s", NOT_NEGATIVE;
         /// Time of standing still at the start in which the soles are taken to lie level; 0: they never are. It finds what the encoders

@@ -37,11 +37,17 @@ pub(crate) struct Play {
 impl Play {
     pub(crate) fn new(body: &Body, tuning: &PlayTuning) -> Self {
         let description = body.description();
-        let gears = Side::BOTH
-            .iter()
-            .flat_map(|&side| body.leg_joints(side))
-            .filter(|&&joint| body.followers.iter().all(|pair| pair.0 != joint))
-            .filter_map(|&joint| {
+        let mut motors = Vec::new();
+        for &joint in Side::BOTH.iter().flat_map(|&side| body.leg_joints(side)) {
+            let tie = body.followers.iter().find(|tie| tie.joint == joint);
+            let motor = tie.map_or(joint, |tie| tie.leader);
+            if !motors.contains(&motor) {
+                motors.push(motor);
+            }
+        }
+        let gears = motors
+            .into_iter()
+            .filter_map(|joint| {
                 let name = &description.joints[joint];
                 let mut hinges = description
                     .links
@@ -116,8 +122,8 @@ impl Play {
                 &mut self.torques_nm,
             );
         }
-        for &(follower, leader) in &body.followers {
-            self.torques_nm[leader] += self.torques_nm[follower];
+        for tie in &body.followers {
+            self.torques_nm[tie.leader] += self.torques_nm[tie.joint] * tie.ratio;
         }
         let follow = self.follow;
         for gear in &mut self.gears {
@@ -132,8 +138,9 @@ impl Play {
             gear.lead_rad += (lead_rad - gear.lead_rad) * follow;
             self.joint_positions_rad[gear.joint] -= gear.lead_rad;
         }
-        for &(follower, leader) in &body.followers {
-            self.joint_positions_rad[follower] = self.joint_positions_rad[leader];
+        for tie in &body.followers {
+            self.joint_positions_rad[tie.joint] =
+                tie.angle_rad(self.joint_positions_rad[tie.leader]);
         }
         &self.joint_positions_rad
     }

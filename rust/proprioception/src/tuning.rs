@@ -42,7 +42,7 @@ settings! {
         /// Time over which the torso's speed by leg odometry is smoothed.
         speed_filter_time: f64 = 0.05, "s", NOT_NEGATIVE;
         /// Speeds of trunk joints below this are the encoders' noise.
-        joint_speed_floor: f64 = 0.1, "rad/s", NOT_NEGATIVE;
+        joint_speed_floor: f64 = 0.1, "rad/s" of sensor, NOT_NEGATIVE;
     }
 }
 
@@ -60,6 +60,6 @@ settings! {
     /// How long body states are kept, so that a depth frame is posed by the joints at its exposure.
     pub struct HistoryTuning("navigation.proprioception.tuning.history") {
         /// Latency of the latest picture that finds the body state at its exposure: the most that a scenario allows as `sensors.latency`.
-        longest_latency: f64 = 2.0, "s", within(0.0, 60.0);
+        longest_latency: f64 = 2.0, "s" of camera, within(0.0, 60.0);
     }
 }

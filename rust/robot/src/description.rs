@@ -1,8 +1,13 @@
 //! What a robot's folder says of its body, as plain data.
 
+mod legs;
+
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
+
+use crate::size::own_size;
+pub use legs::{ForceSensors, LEAST_LEG_JOINTS, Leg, Legs, MOST_LEG_JOINTS, Sole};
 
 /// The left or the right leg.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -47,6 +52,9 @@ impl Side {
 pub struct Description {
     /// The folder's name.
     pub name: String,
+    /// Length of the leg over that of the robot whose numbers the defaults are; descriptions from before are of robots of its size.
+    #[serde(default = "own_size")]
+    pub scale: f64,
     /// Links, each behind its parent; the first is the root.
     pub links: Vec<LinkDescription>,
     /// Names of the joints in joint order: that of every array over joints.
@@ -120,91 +128,32 @@ pub struct JointDescription {
     pub kp: f64,
     /// Damping of the servo, N m s/rad.
     pub kv: f64,
-    /// The joint whose motor turns this one too, by the same angle; `None` for a joint with a motor of its own.
+    /// The joint whose motor turns this one too, by gears or rods; `None` for a joint with a motor of its own.
     #[serde(default)]
     pub follows: Option<String>,
-}
-
-/// Both legs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Legs {
-    /// The left leg.
-    pub left: Leg,
-    /// The right leg.
-    pub right: Leg,
-}
-
-impl Legs {
-    /// The leg of that side.
-    pub const fn get(&self, side: Side) -> &Leg {
-        match side {
-            Side::Left => &self.left,
-            Side::Right => &self.right,
-        }
-    }
-}
-
-/// A leg of six joints, from the hip down.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Leg {
-    /// Hip yaw, hip roll, hip pitch, knee pitch, ankle pitch, ankle roll. The first axis may slant sideways.
-    pub joints: [String; 6],
-    /// The sole at its end.
-    pub sole: Sole,
-    /// Where the force sensors are; `None`: at the sole's corners.
+    /// How far it turns for each radian of the joint that it follows.
+    #[serde(default = "same")]
+    pub ratio: f64,
+    /// Its angle where that of the joint that it follows is zero, rad.
     #[serde(default)]
-    pub sensors: Option<ForceSensors>,
+    pub offset: f64,
 }
 
-impl Leg {
-    /// Middle of the force sensors from the sole's centre, and their distances, forward and to the left, m.
-    pub fn sensors_on_sole_m(&self) -> ([f64; 2], [f64; 2]) {
-        let sole = &self.sole;
-        self.sensors
-            .as_ref()
-            .map_or(([0.0; 2], [sole.length, sole.width]), |sensors| {
-                let middle = [0, 1].map(|axis| sensors.position[axis] - sole.position[axis]);
-                (middle, [sensors.length, sensors.width])
-            })
-    }
-}
-
-/// The rectangle that a foot stands on.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Sole {
-    /// Link that carries it.
-    pub link: String,
-    /// Centre of the rectangle in the link's frame, in the plane that touches the ground, m.
-    pub position: [f64; 3],
-    /// Extent along x, m.
-    pub length: f64,
-    /// Extent along y, m.
-    pub width: f64,
-}
-
-/// The rectangle at whose corners the force sensors of a foot are.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ForceSensors {
-    /// Its centre in the link's frame, m.
-    pub position: [f64; 3],
-    /// Extent along x, m.
-    pub length: f64,
-    /// Extent along y, m.
-    pub width: f64,
+/// A joint that follows turns as the other one, where nothing else is said.
+const fn same() -> f64 {
+    1.0
 }
 
 /// The joints that turn the head.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Head {
-    /// Turns about the vertical.
-    pub pan: String,
-    /// Nods.
-    pub tilt: String,
+    /// Turns about the vertical; `None` where no joint does.
+    #[serde(default)]
+    pub pan: Option<String>,
+    /// Nods; `None` where no joint does.
+    #[serde(default)]
+    pub tilt: Option<String>,
     /// Height of the eyes above the ground while the robot stands, as far as turning the head to a place needs it, m.
     #[serde(default = "eye_height")]
     pub eye_height: f64,

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use geometry::{Camera, Pose, Torso};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
-use crate::links::{Link, build_links, find, find_followers, isometry};
-use crate::{BodyError, Description, Side};
+use crate::links::{Follower, Link, build_links, find, find_followers, isometry};
+use crate::{BodyError, Description, LEAST_LEG_JOINTS, MOST_LEG_JOINTS, Side};
 
 /// A robot's body, ready to compute with. The frame of all results is [`Torso`]: the root link.
 #[derive(Debug, Clone)]
@@ -15,9 +15,9 @@ pub struct Body {
     pub(crate) links: Vec<Link>,
     link_index: BTreeMap<String, usize>,
     joint_index: BTreeMap<String, usize>,
-    leg_joints: [[usize; 6]; 2],
-    /// Joints without a motor of their own, each with the one whose motor turns it too, by the same angle.
-    pub followers: Vec<(usize, usize)>,
+    leg_joints: [Vec<usize>; 2],
+    /// Joints without a motor of their own, each with the one whose motor turns it too.
+    pub followers: Vec<Follower>,
     sole_links: [usize; 2],
     link_from_sole: [Isometry3<f64>; 2],
     camera_link: usize,
@@ -36,6 +36,7 @@ pub struct LinkPoses {
 impl Body {
     /// Checks a description and prepares it.
     pub fn new(description: Description) -> Result<Self, BodyError> {
+        description.check_size()?;
         let joint_index: BTreeMap<_, _> = description
             .joints
             .iter()
@@ -51,13 +52,21 @@ impl Body {
         let links = build_links(&description, &joint_index)?;
         let followers = find_followers(&description, &joint_index)?;
         let leg = |side: Side| description.legs.get(side);
-        let mut leg_joints = [[0; 6]; 2];
+        let mut leg_joints = [Vec::new(), Vec::new()];
         let mut sole_links = [0; 2];
         let mut link_from_sole = [Isometry3::identity(); 2];
         for side in Side::BOTH {
-            for (slot, name) in leg_joints[side.index()].iter_mut().zip(&leg(side).joints) {
-                *slot = find(&joint_index, "joint", "legs", name)?;
+            let joints = &leg(side).joints;
+            if !(LEAST_LEG_JOINTS..=MOST_LEG_JOINTS).contains(&joints.len()) {
+                return Err(BodyError::BadValue {
+                    what: format!("legs: joints of the {side:?} leg"),
+                    allowed: "5 to 7",
+                    found: joints.len().to_string(),
+                });
             }
+            leg_joints[side.index()] = (joints.iter())
+                .map(|name| find(&joint_index, "joint", "legs", name))
+                .collect::<Result<_, _>>()?;
             sole_links[side.index()] = find(&link_index, "link", "sole", &leg(side).sole.link)?;
             link_from_sole[side.index()] = isometry(leg(side).sole.position, [1.0, 0.0, 0.0, 0.0]);
         }
@@ -105,8 +114,8 @@ impl Body {
         find(&self.link_index, "link", role, name)
     }
 
-    /// Joint indices of a leg from the hip down: yaw, roll, pitch, knee, ankle pitch, ankle roll.
-    pub const fn leg_joints(&self, side: Side) -> &[usize; 6] {
+    /// Joint indices of a leg, from the hip down.
+    pub fn leg_joints(&self, side: Side) -> &[usize] {
         &self.leg_joints[side.index()]
     }
 

@@ -6,11 +6,13 @@ mod description;
 mod error;
 mod kinematics;
 mod links;
+mod size;
 mod statics;
 
 pub use description::{
-    CameraMount, Description, Extent, ForceSensors, Head, ImuMount, JointDescription, Leg, Legs,
-    LinkDescription, Side, Sole, StereoDescription,
+    CameraMount, Description, Extent, ForceSensors, Head, ImuMount, JointDescription,
+    LEAST_LEG_JOINTS, Leg, Legs, LinkDescription, MOST_LEG_JOINTS, Side, Sole, StereoDescription,
 };
 pub use error::BodyError;
 pub use kinematics::{Body, LinkPoses};
+pub use links::Follower;

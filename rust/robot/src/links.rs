@@ -14,6 +14,31 @@ pub(crate) struct Hinge {
     pub(crate) anchor: Vector3<f64>,
 }
 
+/// A joint without a motor of its own: gears or rods tie it to one that has one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Follower {
+    /// Its index.
+    pub joint: usize,
+    /// Index of the joint whose motor turns it.
+    pub leader: usize,
+    /// How far it turns for each radian of the leader.
+    pub ratio: f64,
+    /// Its angle where the leader's is zero, rad.
+    pub offset_rad: f64,
+}
+
+impl Follower {
+    /// Its angle at one of the leader's, rad.
+    pub fn angle_rad(&self, leader_rad: f64) -> f64 {
+        self.offset_rad + self.ratio * leader_rad
+    }
+
+    /// The leader's angle at one of its own, rad.
+    pub fn leader_rad(&self, angle_rad: f64) -> f64 {
+        (angle_rad - self.offset_rad) / self.ratio
+    }
+}
+
 /// A rigid part of the body, fixed to its parent or turned against it.
 #[derive(Debug, Clone)]
 pub(crate) struct Link {
@@ -51,11 +76,11 @@ pub(crate) fn find(
         })
 }
 
-/// Pairs of joints that one motor turns.
+/// Joints without a motor of their own.
 pub(crate) fn find_followers(
     description: &Description,
     joint_index: &BTreeMap<String, usize>,
-) -> Result<Vec<(usize, usize)>, BodyError> {
+) -> Result<Vec<Follower>, BodyError> {
     let joints = description
         .links
         .iter()
@@ -66,7 +91,19 @@ pub(crate) fn find_followers(
             let role = format!("joint `{}` follows", joint.name);
             let pair = [&joint.name, leader].map(|name| find(joint_index, "joint", &role, name));
             let [follower, leader] = pair;
-            followers.push((follower?, leader?));
+            if !(joint.ratio.is_finite() && joint.ratio != 0.0 && joint.offset.is_finite()) {
+                return Err(BodyError::BadValue {
+                    what: role,
+                    allowed: "a ratio other than 0 and a finite offset",
+                    found: format!("{} and {}", joint.ratio, joint.offset),
+                });
+            }
+            followers.push(Follower {
+                joint: follower?,
+                leader: leader?,
+                ratio: joint.ratio,
+                offset_rad: joint.offset,
+            });
         }
     }
     Ok(followers)

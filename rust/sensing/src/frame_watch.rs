@@ -13,7 +13,7 @@ settings! {
         /// A picture that is the same to the bit although the camera has turned by this since, by the joints, is frozen.
         turned: f64 = 0.01, "rad", POSITIVE;
         /// A robot that gives up after so long without a good picture says that it is the camera.
-        silent: f64 = 3.0, "s", POSITIVE;
+        silent: f64 = 3.0, "s" of camera, POSITIVE;
     }
 }
 

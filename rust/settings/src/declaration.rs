@@ -4,7 +4,8 @@
 ///
 /// The doc comment is the meaning that users read. The unit is SI (`"m"`, `"rad"`, `"s"`), `"1"` for a number without one, `"-"` for
 /// what is no number. Bounds are constants and functions of this crate ([`crate::POSITIVE`], [`crate::within`]). The source is paper
-/// and equation and may be left out. A line `name: type;` holds a table within the table; `name: type = value, "-", ANY;` holds one
+/// and equation and may be left out. What follows the robot's size by its unit ([`crate::Scale`]) says nothing of it; what is the
+/// camera's, a sensor's, the world's or the computation's says that behind the unit: `"m" of camera`. A line `name: type;` holds a table within the table; `name: type = value, "-", ANY;` holds one
 /// whose defaults are those of the value. A line `require (name) < (other);` behind the struct holds two settings against each other,
 /// also parts of one or of a table within (`require (gaze.steep) >= (range[0]);`); what takes more to tell is checked by the function behind `check`.
 ///
@@ -40,7 +41,7 @@ macro_rules! settings {
             $(
                 $(#[doc = $meaning:literal])*
                 $field:ident: $type:ty
-                    $(= $default:expr, $unit:literal, $bounds:expr $(, $source:literal)?)?;
+                    $(= $default:expr, $unit:literal $(of $owner:ident)?, $bounds:expr $(, $source:literal)?)?;
             )*
         }
         $(require ($($one:tt)+) $than:tt ($($other:tt)+);)*
@@ -98,6 +99,7 @@ macro_rules! settings {
                             bounds: $crate::bounds_of!($($bounds)?),
                             meaning: concat!($($meaning),*),
                             source: $crate::source_of!($($($source)?)?),
+                            owner: $crate::owner_of!($($($owner)?)?),
                         },
                     );
                 )*
@@ -154,6 +156,27 @@ macro_rules! unit_of {
     };
     ($unit:literal) => {
         $unit
+    };
+}
+
+/// Whose a setting is that does not follow the robot's size.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! owner_of {
+    () => {
+        None
+    };
+    (camera) => {
+        Some($crate::Owner::Camera)
+    };
+    (sensor) => {
+        Some($crate::Owner::Sensor)
+    };
+    (world) => {
+        Some($crate::Owner::World)
+    };
+    (numerics) => {
+        Some($crate::Owner::Numerics)
     };
 }
 

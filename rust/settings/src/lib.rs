@@ -8,6 +8,7 @@ mod bounds;
 mod declaration;
 mod error;
 mod part;
+mod scale;
 mod setting;
 mod table;
 
@@ -19,12 +20,13 @@ pub use bounds::{
 pub use error::require_fit;
 pub use error::{ConfigError, MakeError, require};
 pub use part::Part;
+pub use scale::{Owner, Scale};
 #[doc(hidden)]
 pub use setting::words_of;
 pub use setting::{Parameter, Setting};
 #[doc(hidden)]
 pub use table::{Declared, describe, key_of};
-pub use table::{Table, TableDescription, Tables, read};
+pub use table::{Table, TableDescription, Tables, overlay, read};
 
 #[doc(hidden)]
 pub use {schemars, serde, serde_json};

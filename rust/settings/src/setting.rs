@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde_json::{Map, Value, json};
 
-use crate::{Bounds, ConfigError};
+use crate::{Bounds, ConfigError, Owner};
 
 /// One setting, as `treadwell list parameters` shows it.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -20,6 +20,10 @@ pub struct Parameter {
     pub meaning: String,
     /// Paper and equation, where it comes from one.
     pub source: Option<&'static str>,
+    /// Whose it is, where it does not follow the robot's size though its unit would.
+    pub owner: Option<Owner>,
+    /// Whether its default follows from the robot's size.
+    pub scales: bool,
     /// Whether it stands under `tuning`: a number that decides something, but that few will want to turn.
     pub tuning: bool,
     /// Its part of the table's JSON schema.

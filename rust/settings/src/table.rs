@@ -6,7 +6,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
-use crate::{Bounds, ConfigError, MakeError, Parameter, Setting};
+use crate::scale;
+use crate::{Bounds, ConfigError, MakeError, Owner, Parameter, Scale, Setting};
 
 /// A struct whose fields are settings. Declared by [`crate::settings!`].
 pub trait Table: Serialize + DeserializeOwned + Default {
@@ -40,6 +41,7 @@ pub struct TableDescription {
     /// What it is for.
     pub about: &'static str,
     list: fn(&str) -> Vec<Parameter>,
+    check: fn(&str, &Value) -> Result<(), MakeError>,
 }
 
 impl TableDescription {
@@ -54,12 +56,26 @@ impl TableDescription {
             key,
             about: T::ABOUT,
             list: |key| T::default().parameters_as(key),
+            check: |key, given| Ok(over_defaults::<T>(given, key)?.check_as(key)?),
         }
     }
 
     /// Its settings.
     pub fn parameters(&self) -> Vec<Parameter> {
         (self.list)(self.key)
+    }
+
+    /// What of its defaults is other for a robot of that size, as a table.
+    pub fn defaults_at(&self, scale: &Scale) -> Value {
+        if *scale == Scale::ONE {
+            return Value::Object(Map::new());
+        }
+        scale.defaults_of(&self.parameters(), self.key)
+    }
+
+    /// Refuses settings that cannot be used; what they do not say has its default.
+    pub fn check(&self, given: &Value) -> Result<(), MakeError> {
+        (self.check)(self.key, given)
     }
 
     /// JSON schema of the table.
@@ -99,25 +115,32 @@ pub fn read<T: DeserializeOwned + Serialize + Default>(
     tables: &Tables,
     name: &str,
 ) -> Result<T, MakeError> {
-    let Some(given) = tables.get(name) else {
-        return Ok(T::default());
-    };
-    let refused = |key: &str, error: &dyn std::fmt::Display| {
-        MakeError::Text(format!("navigation.{name}{key}: {error}"))
-    };
+    tables.get(name).map_or_else(
+        || Ok(T::default()),
+        |given| over_defaults(given, &format!("navigation.{name}")),
+    )
+}
+
+/// The settings of the table `key` that were given, over its defaults.
+fn over_defaults<T: DeserializeOwned + Serialize + Default>(
+    given: &Value,
+    key: &str,
+) -> Result<T, MakeError> {
+    let refused =
+        |at: &str, error: &dyn std::fmt::Display| MakeError::Text(format!("{key}{at}: {error}"));
     let mut settings = serde_json::to_value(T::default()).map_err(|error| refused("", &error))?;
     overlay(&mut settings, given);
     serde_path_to_error::deserialize(settings).map_err(|error| {
-        let key = match error.path().to_string().as_str() {
+        let at = match error.path().to_string().as_str() {
             "." => String::new(),
             path => format!(".{path}"),
         };
-        refused(&key, error.inner())
+        refused(&at, error.inner())
     })
 }
 
 /// Puts `given` over `settings`, key by key where both are tables.
-fn overlay(settings: &mut Value, given: &Value) {
+pub fn overlay(settings: &mut Value, given: &Value) {
     match (settings, given) {
         (Value::Object(settings), Value::Object(given)) => {
             for (key, value) in given {
@@ -148,6 +171,8 @@ pub struct Declared {
     pub meaning: &'static str,
     /// Paper and equation.
     pub source: Option<&'static str>,
+    /// Whose it is, where it does not follow the robot's size.
+    pub owner: Option<Owner>,
 }
 
 /// Puts what is known of a setting, or of all those of a table within the table, to a list.
@@ -159,6 +184,7 @@ pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, a
         bounds,
         meaning,
         source,
+        owner,
     } = as_is;
     if let Some(inner) = default.parameters(&key) {
         all.extend(inner);
@@ -173,6 +199,7 @@ pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, a
         schema["x-unit"] = json!(unit);
     }
     all.push(Parameter {
+        scales: owner.is_none() && scale::follows(&key, unit, &default),
         tuning: key.contains(".tuning."),
         bounds: T::allowed(&bounds),
         key,
@@ -180,6 +207,7 @@ pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, a
         unit,
         meaning,
         source,
+        owner,
         schema,
     });
 }

@@ -25,13 +25,27 @@ pub struct EncodersConfig {
     pub velocities: Vec<usize>,
     /// Step of the readings, rad; 0 for exact readings and velocities.
     pub quantum_rad: f64,
-    /// Joints without an encoder, each with the one whose encoder speaks for both.
-    pub followers: Vec<[usize; 2]>,
+    /// Joints without an encoder, which the one of another joint speaks for.
+    pub followers: Vec<SpokenFor>,
     /// Seed of the velocities' noise.
     pub seed: u64,
     /// How they measure.
     #[serde(default)]
     pub tuning: EncodersTuning,
+}
+
+/// A joint without an encoder, turned by the motor of one that has one.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpokenFor {
+    /// Its place in the joint order.
+    pub joint: usize,
+    /// That of the joint with the encoder.
+    pub by: usize,
+    /// How far it turns for each radian of that joint.
+    pub ratio: f64,
+    /// Its angle where that joint's is zero, rad.
+    pub offset_rad: f64,
 }
 
 /// The encoders of one robot.
@@ -103,9 +117,9 @@ impl Encoders {
                 *velocity += self.velocity_noise_radps * self.normals.draw();
             }
         }
-        for &[follower, leader] in &config.followers {
-            angles[follower] = angles[leader];
-            velocities[follower] = velocities[leader];
+        for tie in &config.followers {
+            angles[tie.joint] = tie.offset_rad + tie.ratio * angles[tie.by];
+            velocities[tie.joint] = tie.ratio * velocities[tie.by];
         }
         Ok((angles, velocities))
     }
@@ -120,7 +134,7 @@ mod tests {
 
     const QUANTUM_RAD: f64 = 0.001_534;
 
-    fn encoders(quantum_rad: f64, followers: Vec<[usize; 2]>) -> Encoders {
+    fn encoders(quantum_rad: f64, followers: Vec<SpokenFor>) -> Encoders {
         Encoders::new(EncodersConfig {
             positions: vec![8, 7],
             velocities: vec![7, 6],
@@ -170,12 +184,28 @@ mod tests {
     fn a_joint_without_an_encoder_reads_what_its_leader_reads() {
         let mut made = at(0.302, 0.3);
         made.qvel[7] = 1.0;
-        let (readings, velocities) = encoders(QUANTUM_RAD, vec![[1, 0]])
+        let alike = SpokenFor {
+            joint: 1,
+            by: 0,
+            ratio: 1.0,
+            offset_rad: 0.0,
+        };
+        let (readings, velocities) = encoders(QUANTUM_RAD, vec![alike])
             .read(&made.state(), Some(&[0.5; 2]), &[0.01, 0.2])
             .unwrap();
         assert_eq!(readings[0], readings[1]);
         assert!((readings[0] - 0.81).abs() < QUANTUM_RAD);
         assert_eq!(velocities[0], velocities[1]);
+        let geared = SpokenFor {
+            ratio: -0.5,
+            offset_rad: 0.1,
+            ..alike
+        };
+        let (readings, velocities) = encoders(0.0, vec![geared])
+            .read(&made.state(), None, &[0.0; 2])
+            .unwrap();
+        assert!((readings[1] - (0.1 - 0.5 * readings[0])).abs() < 1e-12);
+        assert_eq!(velocities[1], -0.5 * velocities[0]);
     }
 
     #[test]

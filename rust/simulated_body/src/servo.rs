@@ -87,7 +87,12 @@ impl Servos {
             DrivenJoint {
                 motor: *motor,
                 slope: motor.stall_torque_nm / motor.no_load_speed_radps,
-                lead_per_torque: half_play_rad / takes_up_nm,
+                // A joint that no motor turns has no gear either.
+                lead_per_torque: if takes_up_nm > 0.0 {
+                    half_play_rad / takes_up_nm
+                } else {
+                    0.0
+                },
                 stopping: motor.inertia_kgm2 / timestep_s,
                 asked_nm: 0.0,
                 strength: 1.0,

@@ -34,6 +34,8 @@ fn link(
             kp: 150.0,
             kv: 3.0,
             follows: None,
+            ratio: 1.0,
+            offset: 0.0,
         }),
     }
 }
@@ -71,7 +73,8 @@ pub fn biped() -> Body {
             "ankle_pitch",
             "foot",
         ]
-        .map(|name| format!("{side}_{name}")),
+        .map(|name| format!("{side}_{name}"))
+        .to_vec(),
         sole: Sole {
             link: format!("{side}_foot"),
             position: [0.0, 0.0, -0.04],
@@ -91,14 +94,15 @@ fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
         .collect();
     Body::new(Description {
         name: "biped".to_owned(),
+        scale: 1.0,
         stand: vec![0.0; joints.len()],
         joints,
         links,
         torso: "waist".to_owned(),
         legs: Legs { left, right },
         head: Head {
-            pan: "waist".to_owned(),
-            tilt: "waist".to_owned(),
+            pan: Some("waist".to_owned()),
+            tilt: Some("waist".to_owned()),
             eye_height: 0.45,
             eye_ahead: 0.04,
         },

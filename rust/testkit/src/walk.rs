@@ -193,7 +193,7 @@ impl Walk {
 
     /// Newton's method on the forward kinematics, from the angles of the tick before.
     fn solve_leg(&mut self, side: Side, torso_from_sole: &Isometry3<f64>) {
-        let indices = *self.body.leg_joints(side);
+        let indices = self.body.leg_joints(side).to_vec();
         for _ in 0..30 {
             let error = self.sole_error(side, torso_from_sole);
             if error.norm() < 1e-13 {

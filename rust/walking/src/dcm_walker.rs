@@ -12,6 +12,7 @@ use crate::arms::ArmsControl;
 use crate::balance::{Balance, Sensed};
 use crate::capture::Capture;
 use crate::config::GaitConfig;
+use crate::drives::Drives;
 use crate::error::WalkError;
 use crate::feet::FeetControl;
 use crate::felt::{Felt, KnownGround};
@@ -41,6 +42,7 @@ pub struct DcmWalker {
     weight_n: f64,
     head: HeadControl,
     arms: ArmsControl,
+    drives: Drives,
     pub(crate) gait: Gait,
     pub(crate) list: StepList,
     pub(crate) balance: Balance,
@@ -72,6 +74,7 @@ impl DcmWalker {
             weight_n: body.mass_kg() * GRAVITY_MPS2,
             head: HeadControl::new(body, config.gaze_speed)?,
             arms: ArmsControl::new(body, &rest, config.arms_time)?,
+            drives: Drives::new(body),
             balance: Balance::new(body, &config, omega, com.xy()),
             soles: Soles::new(body, config.sole_margin),
             feet_control: FeetControl::new(&config),
@@ -165,6 +168,7 @@ impl DcmWalker {
         let standing = self.gait.is_standing();
         self.arms
             .turn(command.arms, standing, passed_s, &mut self.targets);
+        self.drives.turn(&mut self.targets);
         Ok(&self.targets)
     }
 

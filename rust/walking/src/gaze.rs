@@ -9,10 +9,10 @@ use crate::{error::WalkError, targets::JointTargets};
 /// A small turn of a joint, rad: only to which side it turns the camera is asked.
 const SMALL_RAD: f64 = 0.01;
 
-/// Moves pan and tilt with limited speed.
+/// Moves pan and tilt with limited speed; what no joint turns stays as it is.
 #[derive(Debug, Clone)]
 pub struct HeadControl {
-    joints: [usize; 2],
+    joints: [Option<usize>; 2],
     ranges_rad: [[f64; 2]; 2],
     signs: [f64; 2],
     down_at_zero_rad: f64,
@@ -25,19 +25,22 @@ impl HeadControl {
     pub fn new(body: &Body, speed_radps: f64) -> Result<Self, WalkError> {
         let description = body.description();
         let names = [&description.head.pan, &description.head.tilt];
-        let mut joints = [0; 2];
+        let mut joints = [None; 2];
         let mut ranges_rad = [[0.0; 2]; 2];
         for (slot, name) in names.into_iter().enumerate() {
-            joints[slot] = body.joint("head", name)?;
-            ranges_rad[slot] = body
-                .hinge(joints[slot])
-                .map_or([0.0; 2], |(_, joint)| joint.range);
+            let Some(name) = name else { continue };
+            let joint = body.joint("head", name)?;
+            joints[slot] = Some(joint);
+            ranges_rad[slot] = body.hinge(joint).map_or([0.0; 2], |(_, joint)| joint.range);
         }
         let mut poses = LinkPoses::default();
         let mut look = |pan: f64, tilt: f64| -> Result<Vector3<f64>, WalkError> {
             let mut angles = description.stand.clone();
-            angles[joints[0]] = pan;
-            angles[joints[1]] = tilt;
+            for (joint, angle) in joints.into_iter().zip([pan, tilt]) {
+                if let Some(joint) = joint {
+                    angles[joint] = angle;
+                }
+            }
             body.pose_links(&angles, &mut poses)?;
             Ok(body.torso_from_camera(&poses).inner.rotation * Vector3::z())
         };
@@ -48,7 +51,7 @@ impl HeadControl {
             look(0.0, SMALL_RAD)?,
         );
         let left = libm::atan2(panned.y, panned.x) - libm::atan2(straight.y, straight.x);
-        let angles_rad = [description.stand[joints[0]], description.stand[joints[1]]];
+        let angles_rad = joints.map(|joint| joint.map_or(0.0, |joint| description.stand[joint]));
         Ok(Self {
             joints,
             ranges_rad,
@@ -75,14 +78,16 @@ impl HeadControl {
                 before
             };
             self.angles_rad[slot] = before + (goal - before).clamp(-most, most);
-            let joint = self.joints[slot];
+            let Some(joint) = self.joints[slot] else {
+                continue;
+            };
             targets.positions_rad[joint] = self.angles_rad[slot];
             targets.velocities_radps[joint] = (self.angles_rad[slot] - before) / passed_s;
         }
     }
 
-    /// The joints that pan and tilt, by the joint order.
-    pub const fn joints(&self) -> [usize; 2] {
+    /// The joints that pan and tilt, by the joint order, where there are any.
+    pub const fn joints(&self) -> [Option<usize>; 2] {
         self.joints
     }
 

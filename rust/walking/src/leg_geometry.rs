@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use robot::{Body, LinkPoses, Side};
 
-use crate::{error::WalkError, tuning::LegTuning};
+use crate::{error::WalkError, leg_sizes::LegSizes, tuning::LegTuning};
 
 /// A deviation from the assumed geometry that is that of rounding in a description, sine of an angle.
 const TOLERANCE: f64 = 1e-6;
@@ -36,42 +36,56 @@ pub(crate) struct LegGeometry {
 }
 
 impl LegGeometry {
-    /// Reads a leg; fails where the closed form does not hold.
-    pub(crate) fn read(body: &Body, side: Side, tuning: &LegTuning) -> Result<Self, WalkError> {
+    /// Reads a leg; what is within says why the closed form does not hold for it.
+    pub(crate) fn read(
+        body: &Body,
+        side: Side,
+        tuning: &LegTuning,
+    ) -> Result<Result<Self, String>, WalkError> {
         let mut poses = LinkPoses::default();
         body.pose_links(&vec![0.0; body.joint_count()], &mut poses)?;
-        let refuse = |what: String| WalkError::Leg { side, what };
+        Ok(Self::of_poses(body, side, tuning, &poses))
+    }
+
+    fn of_poses(
+        body: &Body,
+        side: Side,
+        tuning: &LegTuning,
+        poses: &LinkPoses,
+    ) -> Result<Self, String> {
+        let joints = body.leg_joints(side);
+        if joints.len() != 1 + AXES.len() {
+            return Err(format!("it has {} joints", joints.len()));
+        }
         let mut anchors = [Vector3::zeros(); 6];
         let mut signs = [1.0; 6];
         let mut ranges_rad = [[0.0; 2]; 6];
         let mut slant_rad = 0.0;
-        for (slot, &joint) in body.leg_joints(side).iter().enumerate() {
+        for (slot, &joint) in joints.iter().enumerate() {
             let (link, hinge) = body
                 .hinge(joint)
-                .ok_or_else(|| refuse(format!("its joint {} turns no link", slot + 1)))?;
+                .ok_or_else(|| format!("its joint {} turns no link", slot + 1))?;
             let pose = &poses.torso_from_link[link];
             let axis = pose.rotation * Vector3::from(hinge.axis).normalize();
             if slot == 0 {
-                (signs[0], slant_rad) = yaw_axis(&axis, tuning.steepest).ok_or_else(|| {
-                    refuse(misses(&hinge.name, "be upright or slant sideways", &axis))
-                })?;
+                (signs[0], slant_rad) = yaw_axis(&axis, tuning.steepest)
+                    .ok_or_else(|| misses(&hinge.name, "be upright or slant sideways", &axis))?;
             } else {
                 let (letter, wanted) = AXES[slot - 1];
                 let along = axis.dot(&Vector3::from(wanted));
                 if along.abs() < 1.0 - TOLERANCE {
                     let wanted = format!("be along {letter}");
-                    return Err(refuse(misses(&hinge.name, &wanted, &axis)));
+                    return Err(misses(&hinge.name, &wanted, &axis));
                 }
                 signs[slot] = along.signum();
             }
             ranges_rad[slot] = hinge.range;
             anchors[slot] = (pose * Point3::from(hinge.anchor)).coords;
         }
-        let [hip, knee, ankle] =
-            meeting_points(&anchors, slant_rad, tuning.miss).map_err(refuse)?;
-        let torso_from_sole = body.torso_from_sole(&poses, side);
+        let [hip, knee, ankle] = meeting_points(&anchors, slant_rad, tuning.miss)?;
+        let torso_from_sole = body.torso_from_sole(poses, side);
         if torso_from_sole.rotation.angle() > TOLERANCE {
-            return Err(refuse("the sole must be level at zero".to_owned()));
+            return Err("the sole must be level at zero".to_owned());
         }
         Ok(Self {
             signs,
@@ -82,6 +96,16 @@ impl LegGeometry {
             shank_m: knee.z - ankle.z,
             ankle_in_sole: ankle - torso_from_sole.translation.vector,
         })
+    }
+
+    /// How large it is.
+    pub(crate) const fn sizes(&self) -> LegSizes {
+        LegSizes {
+            hip: self.hip,
+            thigh_m: self.thigh_m,
+            shank_m: self.shank_m,
+            ankle_in_sole: self.ankle_in_sole,
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use geometry::GRAVITY_MPS2;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use robot::{Body, LinkPoses, Side};
+use robot::{Body, LinkPoses, MOST_LEG_JOINTS, Side};
 
 use crate::ankles::Ankles;
 use crate::balance::Balance;
@@ -44,6 +44,8 @@ pub(crate) struct Posture {
     yaw_rad: f64,
     tilt_weight: [f64; 2],
     short_m: [f64; 2],
+    /// The legs' angles of the last tick, rad: where the next ones are looked for.
+    near_rad: [[f64; MOST_LEG_JOINTS]; 2],
     poses: LinkPoses,
 }
 
@@ -55,6 +57,7 @@ impl Posture {
         let legs = [leg(Side::Left)?, leg(Side::Right)?];
         Ok(Self {
             shared_hip: SharedHip::read(body, &legs, &tuning.shared_hip)?,
+            near_rad: [0, 1].map(|index: usize| *legs[index].rest_rad()),
             legs,
             mass_kg: body.mass_kg(),
             pelvis: Pelvis::new(config),
@@ -104,6 +107,7 @@ impl Posture {
         });
         let solutions = self.solve(&soles, &about);
         self.short_m = [0, 1].map(|index| solutions[index].short_m);
+        self.near_rad = [0, 1].map(|index| solutions[index].angles_rad);
         for (leg, solution) in self.legs.iter().zip(&solutions) {
             for (&joint, &angle) in leg.joints().iter().zip(&solution.angles_rad) {
                 let before = targets.positions_rad[joint];
@@ -126,9 +130,11 @@ impl Posture {
         about: &Point3<f64>,
     ) -> [LegAngles; 2] {
         let Some(shared_hip) = &self.shared_hip else {
-            return [0, 1].map(|index| self.legs[index].solve(&torso_from_sole[index]));
+            return [0, 1].map(|index| {
+                self.legs[index].solve(&torso_from_sole[index], &self.near_rad[index])
+            });
         };
-        let agreement = shared_hip.agree(&self.legs, torso_from_sole, about);
+        let agreement = shared_hip.agree(&self.legs, torso_from_sole, about, &self.near_rad);
         self.yaw_rad = geometry::wrap_angle(self.yaw_rad + agreement.turn_rad);
         agreement.legs
     }
@@ -198,9 +204,9 @@ impl Posture {
         for torque in torques_nm.iter_mut() {
             *torque = -*torque;
         }
-        for &(follower, leader) in &body.followers {
-            torques_nm[leader] += torques_nm[follower];
-            torques_nm[follower] = 0.0;
+        for follower in &body.followers {
+            torques_nm[follower.leader] += torques_nm[follower.joint] * follower.ratio;
+            torques_nm[follower.joint] = 0.0;
         }
     }
 }

@@ -4,7 +4,7 @@
 //! same angle is then a matter of how the torso is turned between them: on level ground by the mean of the soles' headings.
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use robot::{Body, Side};
+use robot::{Body, Follower, MOST_LEG_JOINTS, Side};
 
 use crate::error::WalkError;
 use crate::leg::{LegAngles, LegSolver};
@@ -19,7 +19,11 @@ const LEAST_APART: f64 = 1.0;
 /// How both legs agree on one angle.
 #[derive(Debug, Clone)]
 pub(crate) struct SharedHip {
-    /// By how much the left leg's angle grows over the right one's by a turn of the torso to the left.
+    /// The shared joint of each leg, by its place in the leg.
+    slots: [usize; 2],
+    /// How the left one's angle follows from the right one's.
+    tie: Follower,
+    /// By how much the left leg's angle grows over what the right one's makes of it by a turn of the torso to the left.
     apart_per_turn: f64,
     tuning: SharedHipTuning,
 }
@@ -41,14 +45,11 @@ impl SharedHip {
         legs: &[LegSolver; 2],
         tuning: &SharedHipTuning,
     ) -> Result<Option<Self>, WalkError> {
-        let [left, right] = Side::BOTH.map(|side| body.leg_joints(side)[0]);
-        let shared = |&(follower, leader): &(usize, usize)| {
-            [[left, right], [right, left]].contains(&[follower, leader])
-        };
-        if !body.followers.iter().any(shared) {
+        let Some((slots, tie)) = shared(body) else {
             return Ok(None);
-        }
-        let apart_per_turn = legs[0].yaw_per_turn() - legs[1].yaw_per_turn();
+        };
+        let [left, right] = [0, 1].map(|index: usize| legs[index].yaw_per_turn(slots[index]));
+        let apart_per_turn = left - tie.ratio * right;
         if apart_per_turn.abs() < LEAST_APART {
             return Err(WalkError::Leg {
                 side: Side::Right,
@@ -56,6 +57,8 @@ impl SharedHip {
             });
         }
         Ok(Some(Self {
+            slots,
+            tie,
             apart_per_turn,
             tuning: tuning.clone(),
         }))
@@ -68,6 +71,7 @@ impl SharedHip {
         legs: &[LegSolver; 2],
         torso_from_sole: &[Isometry3<f64>; 2],
         about: &Point3<f64>,
+        near_rad: &[[f64; MOST_LEG_JOINTS]; 2],
     ) -> Agreement {
         let most_rad = self.tuning.most_turn;
         let mut turn_rad: f64 = 0.0;
@@ -75,8 +79,10 @@ impl SharedHip {
         let mut wanted_rad = [0.0; 2];
         let mut before: Option<[f64; 2]> = None;
         for _ in 0..self.tuning.turns {
-            wanted_rad = [0, 1].map(|index| legs[index].wanted_yaw_rad(&soles[index]));
-            let apart_rad = wanted_rad[0] - wanted_rad[1];
+            wanted_rad = [0, 1].map(|index| {
+                legs[index].wanted_yaw_rad(&soles[index], self.slots[index], &near_rad[index])
+            });
+            let apart_rad = wanted_rad[0] - self.tie.angle_rad(wanted_rad[1]);
             if apart_rad.abs() < AGREED_RAD {
                 break;
             }
@@ -90,12 +96,38 @@ impl SharedHip {
             let turned = turn_back(about, turn_rad);
             soles = torso_from_sole.map(|sole| turned * sole);
         }
-        let yaw_rad = 0.5 * (wanted_rad[0] + wanted_rad[1]);
+        let left_rad = 0.5 * (wanted_rad[0] + self.tie.angle_rad(wanted_rad[1]));
+        let yaw_rad = [left_rad, self.tie.leader_rad(left_rad)];
         Agreement {
             turn_rad,
-            legs: [0, 1].map(|index| legs[index].solve_turned(&soles[index], yaw_rad)),
+            legs: [0, 1].map(|index| {
+                let (slot, near_rad) = (self.slots[index], &near_rad[index]);
+                legs[index].solve_turned(&soles[index], slot, yaw_rad[index], near_rad)
+            }),
         }
     }
+}
+
+/// The joints that one motor turns in both legs, by their places in them, and how the left one follows from the right one.
+fn shared(body: &Body) -> Option<([usize; 2], Follower)> {
+    let slot = |side: Side, joint: usize| {
+        let mut joints = body.leg_joints(side).iter();
+        joints.position(|&own| own == joint)
+    };
+    body.followers.iter().find_map(|tie| {
+        let as_left = slot(Side::Left, tie.joint).zip(slot(Side::Right, tie.leader));
+        if let Some((left, right)) = as_left {
+            return Some(([left, right], *tie));
+        }
+        let (left, right) = slot(Side::Left, tie.leader).zip(slot(Side::Right, tie.joint))?;
+        let turned = Follower {
+            joint: tie.leader,
+            leader: tie.joint,
+            ratio: 1.0 / tie.ratio,
+            offset_rad: -tie.offset_rad / tie.ratio,
+        };
+        Some(([left, right], turned))
+    })
 }
 
 /// What stands still as seen from a torso that has turned to the left about the vertical through `about`.

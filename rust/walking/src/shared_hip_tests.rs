@@ -17,7 +17,16 @@ fn legs(body: &Body) -> [LegSolver; 2] {
     Side::BOTH.map(|side| LegSolver::new(body, side, 0.9999, &LegTuning::default()).unwrap())
 }
 
-fn soles_at(body: &Body, angles: &[[f64; 6]; 2]) -> [Isometry3<f64>; 2] {
+fn rest(legs: &[LegSolver; 2]) -> [[f64; MOST_LEG_JOINTS]; 2] {
+    [0, 1].map(|index: usize| *legs[index].rest_rad())
+}
+
+fn of_six(angles: [f64; 6]) -> [f64; MOST_LEG_JOINTS] {
+    let [a, b, c, d, e, f] = angles;
+    [a, b, c, d, e, f, 0.0]
+}
+
+fn soles_at(body: &Body, angles: &[[f64; MOST_LEG_JOINTS]; 2]) -> [Isometry3<f64>; 2] {
     let mut all = vec![0.0; body.joint_count()];
     for side in Side::BOTH {
         for (&joint, &angle) in body.leg_joints(side).iter().zip(&angles[side.index()]) {
@@ -55,11 +64,11 @@ proptest! {
         angles in [-0.5..0.5f64, -0.3..0.3f64, -1.2..0.3f64, 0.1..2.0f64, -1.0..0.6f64, -0.4..0.4f64],
     ) {
         let body = body();
-        let soles = soles_at(&body, &[angles; 2]);
+        let soles = soles_at(&body, &[of_six(angles); 2]);
         for (leg, sole) in legs(&body).iter().zip(&soles) {
             let hip_in_sole = sole.inverse_transform_vector(&(leg.hip() - sole.translation.vector));
             prop_assume!(hip_in_sole.z > 0.06);
-            let found = leg.solve(sole);
+            let found = leg.solve(sole, leg.rest_rad());
             prop_assert!(found.reached);
             for (a, b) in found.angles_rad.iter().zip(&angles) {
                 prop_assert!((a - b).abs() < 1e-6, "{:?} became {:?}", angles, found.angles_rad);
@@ -73,7 +82,7 @@ proptest! {
     ) {
         let (body, wanted) = (body(), placed(soles));
         let legs = legs(&body);
-        let found = [0, 1].map(|index| legs[index].solve_turned(&wanted[index], yaw));
+        let found = [0, 1].map(|index| legs[index].solve_turned(&wanted[index], 0, yaw, legs[index].rest_rad()));
         let reached = soles_at(&body, &found.map(|leg| leg.angles_rad));
         for (index, (reached, wanted)) in reached.iter().zip(&wanted).enumerate() {
             prop_assert!(found[index].reached);
@@ -91,7 +100,7 @@ proptest! {
         let legs = legs(&body);
         let shared = SharedHip::read(&body, &legs, &SharedHipTuning::default()).unwrap().unwrap();
         let about = Point3::new(0.01, 0.02, 0.1);
-        let agreed = shared.agree(&legs, &wanted, &about);
+        let agreed = shared.agree(&legs, &wanted, &about, &rest(&legs));
         let [left, right] = agreed.legs;
         prop_assert!(left.reached && right.reached);
         prop_assert_eq!(left.angles_rad[0], right.angles_rad[0]);
@@ -114,7 +123,7 @@ fn soles_turned_out_by_the_same_angle_leave_the_torso_as_it_is() {
         (0.0, 0.0, -0.2, [0.0, 0.0, 0.2]),
         (0.0, 0.0, -0.2, [0.0, 0.0, -0.2]),
     ]);
-    let agreed = shared.agree(&legs, &soles, &Point3::origin());
+    let agreed = shared.agree(&legs, &soles, &Point3::origin(), &rest(&legs));
     assert!(agreed.turn_rad.abs() < 1e-12);
     assert!(agreed.legs[0].angles_rad[0] < -0.2);
 }

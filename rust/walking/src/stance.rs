@@ -4,11 +4,11 @@ use geometry::PlanarPose;
 use nalgebra::Vector3;
 use robot::{Body, LinkPoses, Side};
 use serde::Deserialize;
-use settings::Table;
+use settings::{Table, TableDescription, overlay};
 
 use crate::config::GaitConfig;
 use crate::error::WalkError;
-use crate::leg_geometry::LegGeometry;
+use crate::leg::LegSolver;
 use crate::phase::FootPose;
 use crate::tuning::LegTuning;
 
@@ -39,7 +39,7 @@ impl UprightStance {
         let middle = 0.5 * (soles[0] + soles[1]);
         let mut hip_height_m = 0.0;
         for side in Side::BOTH {
-            hip_height_m += 0.5 * (LegGeometry::read(body, side, tuning)?.hip.z - middle.z);
+            hip_height_m += 0.5 * (LegSolver::new(body, side, 1.0, tuning)?.hip().z - middle.z);
         }
         Ok(Self {
             feet: soles.map(|sole| FootPose {
@@ -59,15 +59,16 @@ impl UprightStance {
 }
 
 impl GaitConfig {
-    /// Reads `[gait]` of a body, and its upright stance; nothing stands for the defaults. Width and height of the stance are those of the
-    /// upright one unless given.
+    /// Reads `[gait]` of a body, and its upright stance; what it does not say has the default of a body of that size. Width and height
+    /// of the stance are those of the upright one unless given.
     pub fn read(body: &Body) -> Result<(Self, UprightStance), WalkError> {
         let table = &body.description().gait;
-        let mut config: Self = if table.is_null() {
-            Self::default()
-        } else {
-            Self::deserialize(table).map_err(|error| WalkError::Form(error.to_string()))?
-        };
+        let mut sized = TableDescription::of::<Self>().defaults_at(&body.description().size());
+        if !table.is_null() {
+            overlay(&mut sized, table);
+        }
+        let mut config =
+            Self::deserialize(&sized).map_err(|error| WalkError::Form(error.to_string()))?;
         config.tuning.check()?;
         let stance = UprightStance::upright(body, &config.tuning.leg)?;
         if table.get("stance_width").is_none() {

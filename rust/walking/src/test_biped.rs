@@ -60,6 +60,8 @@ fn link(
             kp: 150.0,
             kv: 3.0,
             follows: None,
+            ratio: 1.0,
+            offset: 0.0,
         }),
     }
 }
@@ -93,6 +95,7 @@ pub(crate) fn description() -> Description {
     let stand = [&bent[..], &bent[..], &[0.0, 0.0, 0.0]].concat();
     Description {
         name: "biped".to_owned(),
+        scale: 1.0,
         joints,
         stand,
         torso: "pelvis".to_owned(),
@@ -101,8 +104,8 @@ pub(crate) fn description() -> Description {
             right: leg("right"),
         },
         head: Head {
-            pan: "pan".to_owned(),
-            tilt: "tilt".to_owned(),
+            pan: Some("pan".to_owned()),
+            tilt: Some("tilt".to_owned()),
             eye_height: 0.45,
             eye_ahead: 0.04,
         },
@@ -125,7 +128,7 @@ pub(crate) fn description() -> Description {
 
 fn leg(side: &str) -> Leg {
     Leg {
-        joints: LEG.map(|(name, _)| format!("{side}_{name}")),
+        joints: LEG.map(|(name, _)| format!("{side}_{name}")).to_vec(),
         sole: Sole {
             link: format!("{side}_foot"),
             position: [0.0, 0.0, -0.045],

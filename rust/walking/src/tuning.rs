@@ -10,7 +10,7 @@ settings! {
     pub struct GaitTuning("gait.tuning") {
         /// How the walker keeps time, and what it takes for a load.
         ticks: TicksTuning;
-        /// The closed form of the legs' inverse kinematics.
+        /// The inverse kinematics of the legs.
         leg: LegTuning;
         /// How two hips agree that share one yaw motor.
         shared_hip: SharedHipTuning;
@@ -56,7 +56,7 @@ settings! {
 }
 
 settings! {
-    /// The closed form of the legs' inverse kinematics.
+    /// The inverse kinematics of the legs: in closed form, or by Newton's method where that does not hold.
     pub struct LegTuning("gait.tuning.leg") {
         /// By how much axes may miss the point in which the closed form lets them meet: the sole then is that far from where it should be.
         miss: f64 = 1e-3, "m", above_to(0.0, 10.0);
@@ -64,6 +64,12 @@ settings! {
         steepest: f64 = 1.2, "rad", between(0.0, 1.57);
         /// Share of the thigh that is left between hip and ankle of the shortest leg, beyond the difference of thigh and shank.
         shortest: f64 = 0.05, "1", above_to(0.0, 1.0);
+        /// Most steps of Newton's method from a solution that is near; as many again from the upright stance where those do not get there.
+        steps: usize = 12, "1", within(1.0, 1000.0);
+        /// Newton's method is done when the sole is so near to where it should be.
+        near: f64 = 1e-6, "m" of numerics, above_to(0.0, 1e-3);
+        /// Largest turn of a joint in one step of it.
+        longest_step: f64 = 0.5, "rad", above_to(0.0, 3.2);
     }
 }
 

@@ -1,14 +1,12 @@
 //! Settings of the behaviour `walking`.
 
-use settings::{Bounds, NOT_NEGATIVE, POSITIVE, above_to, from_below, settings, within};
+use settings::{Bounds, NOT_NEGATIVE, POSITIVE, from_below, settings, within};
 
-use super::tuning::WalkingTuning;
+use super::tuning::{WAIT, WalkingTuning};
 use crate::machine::Limits;
 
 /// The robot stands no longer than this at one place, however it is told to.
 const STAND: Bounds = within(0.0, 60.0);
-/// No clock after which it gives up runs longer than this: with none it would go on for ever.
-const PATIENCE: Bounds = above_to(0.0, 600.0);
 /// Angles of the gaze below the horizon.
 const DOWN: Bounds = from_below(0.0, 1.5);
 
@@ -68,15 +66,15 @@ settings! {
         /// The robot declares that it has arrived after standing this long.
         arrive_time: f64 = 0.5, "s", STAND;
         /// The robot stands and waits when no frame has come for longer than this.
-        blind_after: f64 = 2.0, "s", PATIENCE;
+        blind_after: f64 = 2.0, "s" of camera, WAIT;
         /// The robot gives up when it has waited for a frame for this long.
-        blind_limit: f64 = 12.0, "s", PATIENCE;
+        blind_limit: f64 = 12.0, "s" of camera, WAIT;
         /// A robot that does not know where it is gives up after this time.
-        locate_limit: f64 = 60.0, "s", PATIENCE;
+        locate_limit: f64 = 60.0, "s", WAIT;
         /// The planner must find no way for this long, and in all directions looked at, before the robot gives up.
         refuse_time: f64 = 3.0, "s", STAND;
         /// The robot looks around when it has made no headway for this long.
-        patience: f64 = 15.0, "s", PATIENCE;
+        patience: f64 = 15.0, "s", WAIT;
         /// Looks without headway, stumbles, corrections and new tries of one kind before the robot gives up. More would tell nothing
         /// new, and between two searches the robot walks, so that no clock ends them.
         tries: u32 = 3, "1", within(1.0, 100.0);

@@ -3,7 +3,7 @@
 use settings::{Bounds, NOT_NEGATIVE, POSITIVE, above_to, at_least, settings, within};
 
 /// Times after which the robot goes on to something else: with a time without end it would wait for ever.
-const WAIT: Bounds = above_to(0.0, 600.0);
+pub(super) const WAIT: Bounds = above_to(0.0, 600.0);
 /// Angles below the horizon, to the side, or between two headings.
 const ANGLE: Bounds = within(0.0, 3.2);
 
@@ -13,7 +13,7 @@ settings! {
         /// The robot gives up after standing, looking and waiting for this long without a step towards the goal.
         idle_limit: f64 = 75.0, "s", WAIT;
         /// The last command holds for this long without a plan: just after a via point was passed the next plan is not there yet.
-        plan_hold: f64 = 0.3, "s", within(0.0, 10.0);
+        plan_hold: f64 = 0.3, "s" of camera, within(0.0, 10.0);
         /// Where the head looks.
         gaze: GazeTuning;
         /// How the path is followed.
@@ -149,7 +149,7 @@ settings! {
         /// A picture of which no more than this share was measured is dark: it is filled by what is too near, or the light is out.
         dark_share: f64 = 0.02, "1", within(0.0, 1.0);
         /// A robot that walks stops when its pictures have been dark for longer than this.
-        dark_after: f64 = 0.3, "s", WAIT;
+        dark_after: f64 = 0.3, "s" of camera, WAIT;
         /// It has come back so near to the place.
         reached: f64 = 0.04, "m", POSITIVE;
         /// Where the map has no room for a turn about, the outermost of the robot moves by this: a hand's breadth.

@@ -82,14 +82,14 @@ impl PythonWalker {
             .replace(now_ns)
             .map_or(TICK_S, |before_ns| (now_ns - before_ns) as f64 * 1e-9);
         self.head.turn(&command.gaze, passed_s, &mut self.headed);
-        let head = self
-            .head
-            .joints()
-            .map(|joint| (joint, self.headed.positions_rad[joint]));
+        let turned = self.head.joints().into_iter().flatten();
+        let head = turned
+            .map(|joint| (joint, self.headed.positions_rad[joint]))
+            .collect();
         let loads_n = senses.state.foot_loads_n;
         let contacts = self.felt.contacts(loads_n);
         let arguments = (
-            PyCommand::new(command, head.into()),
+            PyCommand::new(command, head),
             PyProprioception::new(senses, contacts, &self.joints),
         );
         let object = self.object.bind(py);

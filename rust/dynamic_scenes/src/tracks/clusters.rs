@@ -19,7 +19,7 @@ settings! {
         /// Points in cells of this side with those that were seen through, over the ground, belong to the thing, though others were seen there: its feet, on the floor.
         foot: f64 = 0.04, "m", POSITIVE;
         /// As `foot`, before and behind those points by this times the square of their distance: the error of their ranges.
-        foot_error: f64 = 0.02, "1/m", NOT_NEGATIVE;
+        foot_error: f64 = 0.02, "1/m" of camera, NOT_NEGATIVE;
         /// A thing's middle lies so many times half of its width, as it is seen, behind the mean of its points: of a round one 0.79, of a flat front 1.
         behind: f64 = 0.8, "1", at_least(0.0);
     }

@@ -14,23 +14,23 @@ settings! {
     /// How things that move are followed.
     pub struct TracksConfig("navigation.moving.tracks") {
         /// Standard deviation of a thing's middle, as a frame sees it.
-        sigma: f64 = 0.06, "m", POSITIVE;
+        sigma: f64 = 0.06, "m" of camera, POSITIVE;
         /// Standard deviation of the middle of a thing that the side of what the sensor sees cuts.
-        cut_sigma: f64 = 0.3, "m", POSITIVE;
+        cut_sigma: f64 = 0.3, "m" of world, POSITIVE;
         /// Standard deviation of the speed of a thing that was not seen before.
-        speed: f64 = 0.4, "m/s", POSITIVE;
+        speed: f64 = 0.4, "m/s" of world, POSITIVE;
         /// Standard deviation of the accelerations, over a second.
-        acceleration: f64 = 0.25, "m/s^2", POSITIVE;
+        acceleration: f64 = 0.25, "m/s^2" of world, POSITIVE;
         /// A thing is one that is followed where such a share of its places lies no further off, or nearer.
         gate: f64 = 0.997, "1", between(0.0, 1.0);
         /// Things that were not seen so long are gone.
-        forget: f64 = 2.5, "s", POSITIVE;
+        forget: f64 = 2.5, "s" of world, POSITIVE;
         /// What they did is remembered so long.
-        history: f64 = 30.0, "s", POSITIVE;
+        history: f64 = 30.0, "s" of world, POSITIVE;
         /// A thing moves for sure that was seen in so many frames.
         looks: u32 = 4, "1", at_least(2.0);
         /// A thing moves for sure that is so far from where it was first seen.
-        moved: f64 = 0.12, "m", NOT_NEGATIVE;
+        moved: f64 = 0.12, "m" of world, NOT_NEGATIVE;
     }
 }
 

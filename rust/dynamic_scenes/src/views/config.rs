@@ -6,13 +6,13 @@ settings! {
     /// When a point is seen through: an earlier or later look went on behind it.
     pub struct ViewsConfig("navigation.moving.views") {
         /// Looks are kept that are this far apart.
-        spacing: f64 = 0.4, "s", POSITIVE;
+        spacing: f64 = 0.4, "s" of world, POSITIVE;
         /// Looks are kept so long; what has come and stayed is part of the world after that.
-        memory: f64 = 12.0, "s", POSITIVE;
+        memory: f64 = 12.0, "s" of world, POSITIVE;
         /// A look saw through a point if it went on for more than this behind it.
         margin: f64 = 0.1, "m", POSITIVE;
         /// A look saw through a point if its inverse range is less by more than this: what a stereo camera's error is.
-        inverse_margin: f64 = 0.07, "1/m", NOT_NEGATIVE;
+        inverse_margin: f64 = 0.07, "1/m" of camera, NOT_NEGATIVE;
         /// A look saw something at a point if its range is as near to it as this share of the margins.
         same: f64 = 0.5, "1", above_to(0.0, 1.0);
         /// Directions up to this far beside may be taken for that of the point, for the errors of poses and at borders.

@@ -57,7 +57,7 @@ settings! {
         /// Share of the beams that end on the ground, where both kinds are seen.
         ground_share: f64 = 0.5, "1", SHARE;
         /// Shortest and longest range that is used.
-        reach: [f64; 2] = [0.3, 4.0], "m", POSITIVE;
+        reach: [f64; 2] = [0.3, 4.0], "m" of camera, POSITIVE;
         /// Points of the ground lie at most so far above or below the robot's soles, where its attitude is right.
         ground_band: f64 = 0.06, "m", POSITIVE;
         /// Error of the robot's attitude that points of the ground are looked for with: so much more above or below per metre ahead.
@@ -71,7 +71,7 @@ settings! {
         /// Standard deviation of a range that is left near by, voxels among it.
         range_noise: f64 = 0.03, "m", RANGE_NOISE;
         /// Standard deviation that is added to a range at a metre; it grows with the square of the range.
-        range_noise_growth: f64 = 0.01, "1/m", POSITIVE;
+        range_noise_growth: f64 = 0.01, "1/m" of camera, POSITIVE;
         /// Shares of beams that meet what the map says, what stands before it, and anything.
         mixture: [f64; 3] = [0.8, 0.1, 0.1], "1", POSITIVE;
         /// How fast it becomes rarer with the distance that something unmapped is met first.

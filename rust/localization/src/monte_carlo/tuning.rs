@@ -143,7 +143,7 @@ settings! {
     /// A depth camera that is carried, without a robot that feels its attitude and height.
     pub struct CameraTuning("navigation.monte_carlo.tuning.camera") {
         /// Time from picture to picture, by which errors of its odometry grow beside way and turn.
-        period: f64 = 0.1, "s", POSITIVE;
+        period: f64 = 0.1, "s" of camera, POSITIVE;
         /// Room that there has to be above the floor where a camera is looked for.
         room: f64 = 0.5, "m", POSITIVE;
         /// Cosine of the largest angle, 60 degrees, between the camera's own upward axis and the vertical at which it finds the floor.

@@ -10,7 +10,7 @@ settings! {
         /// Width of a beam: points seen in directions that differ by less are one.
         beam: f64 = 0.026, "rad", POSITIVE;
         /// What is further away than this is too blurred to match.
-        reach: f64 = 1.2, "m", POSITIVE;
+        reach: f64 = 1.2, "m" of camera, POSITIVE;
         /// A beam counts when what it hits rises at least so high above its lowest point.
         rise: f64 = 0.03, "m", POSITIVE;
         /// A beam counts when it has at least so many points.
@@ -42,11 +42,11 @@ settings! {
         /// A keyframe that was not believed so often in a row is forgotten: what it shows has moved.
         refusals: u32 = 12, "1", POSITIVE;
         /// Standard deviation of a bias that was learned in a second of standing still; it falls with the root of the time.
-        rest_noise: f64 = 5e-4, "rad/s", POSITIVE;
+        rest_noise: f64 = 5e-4, "rad/s" of sensor, POSITIVE;
         /// Standard deviation that is left of a bias, however long it was learned: soles creep.
-        bias_creep: f64 = 2e-4, "rad/s", POSITIVE;
+        bias_creep: f64 = 2e-4, "rad/s" of sensor, POSITIVE;
         /// Random walk of the odometry's heading, per square root of a second.
-        heading_drift: f64 = 1e-4, "rad/sqrt(s)", POSITIVE;
+        heading_drift: f64 = 1e-4, "rad/sqrt(s)" of sensor, POSITIVE;
         /// Until this time nothing is matched: the robot is put down and settles.
         settling: f64 = 1.2, "s", POSITIVE;
         /// Numbers that few will want to turn.

@@ -22,17 +22,17 @@ settings! {
         /// What is nearer than this to the point below the camera is left out: it is the robot itself.
         nearest: f64 = 0.1, "m", POSITIVE;
         /// Points of one surface differ in distance by less than this near by.
-        depth: f64 = 0.02, "m", POSITIVE;
+        depth: f64 = 0.02, "m" of camera, POSITIVE;
         /// Far away, points of one surface differ in distance by less than so many standard deviations of it.
         depth_sigmas: f64 = 4.0, "1", POSITIVE;
         /// Pixels of a column that share one error: the height of the stereo matching window.
         window: f64 = 5.0, "px", POSITIVE;
         /// Standard deviation that is left of a beam's distance, however many points are averaged.
-        least_noise: f64 = 0.004, "m", POSITIVE;
+        least_noise: f64 = 0.004, "m" of camera, POSITIVE;
         /// Standard deviation of the place across a beam, as a share of the beam's width there.
         across: f64 = 0.3, "1", POSITIVE;
         /// Standard deviation that the place across a beam has at least.
-        least_across: f64 = 0.003, "m", POSITIVE;
+        least_across: f64 = 0.003, "m" of camera, POSITIVE;
     }
 }
 
@@ -60,13 +60,13 @@ settings! {
         /// Steps after which the search ends.
         iterations: usize = 6, "1", within(1.0, 1000.0);
         /// A step that moves by less than this, m, and turns by less than this, rad, ends the search.
-        small_step: f64 = 1e-5, "m, rad", POSITIVE;
+        small_step: f64 = 1e-5, "m, rad" of numerics, POSITIVE;
         /// Distances of so many standard deviations begin to count less.
         robust_sigmas: f64 = 3.0, "1", POSITIVE;
         /// Share of the beams that err independently: a stereo matching window sees three of them.
         independent: f64 = 1.0 / 3.0, "1", SHARE;
         /// Variance that any surface has at least: none is smoother.
-        roughness: f64 = 4e-6, "m^2", POSITIVE;
+        roughness: f64 = 4e-6, "m^2" of world, POSITIVE;
         /// A beam that counts less than this, by its distance from the surface, lies on none.
         least_trust: f64 = 0.3, "1", SHARE;
         /// A shift beyond so many of its standard deviations is none of odometry's: what was seen has moved.

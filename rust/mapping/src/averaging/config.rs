@@ -15,7 +15,7 @@ settings! {
         /// A cell that lies more than this above one beside it is an obstacle; what is lower can be climbed.
         rise: f64 = 0.05, "m", POSITIVE, "003, Table I: steps up to 50 mm";
         /// Points that are further away than this are left out.
-        max_range: f64 = 4.0, "m", POSITIVE;
+        max_range: f64 = 4.0, "m" of camera, POSITIVE;
         /// Frames are shifted in height to fit the known heights by at most this.
         match_gate: f64 = 0.02, "m", NOT_NEGATIVE;
         /// Points that must fit the known heights before a frame is shifted, or used without a ground plane.

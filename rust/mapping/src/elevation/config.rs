@@ -38,7 +38,7 @@ settings! {
         /// one is asked. 1: the finest alone.
         pyramid: usize = 1, "1", within(1.0, 6.0), "004, section 36.3.1 (Montemerlo and Thrun 2004)";
         /// Standard deviation of a height that is measured at the sensor.
-        sigma: f64 = 0.004, "m", POSITIVE, "004, Fig. 36.10";
+        sigma: f64 = 0.004, "m" of camera, POSITIVE, "004, Fig. 36.10";
         /// How much it grows with each metre of range.
         sigma_per_metre: f64 = 0.01, "1", NOT_NEGATIVE, "004, Fig. 36.10";
         /// A height further from the cell's than so many standard deviations of both is that of another surface.
@@ -46,7 +46,7 @@ settings! {
         /// A cell that lies more than this above one beside it is an obstacle; what is lower can be climbed.
         rise: f64 = 0.05, "m", POSITIVE, "003, Table I: steps up to 50 mm";
         /// Points that are further away than this are left out.
-        max_range: f64 = 4.0, "m", POSITIVE;
+        max_range: f64 = 4.0, "m" of camera, POSITIVE;
         /// Whether a height is taken back that sight lines pass below.
         clearing: bool = true, "-", settings::ANY, "004, section 36.3.1: visibility constraints";
         /// Gaps up to this wide between heights of one surface are filled, but for what is hidden from the sensor. 0: none are.
@@ -94,7 +94,7 @@ settings! {
         /// Of the mean difference from cell to cell, the share by which each may differ from it.
         uneven: f64 = 0.6, "1", NOT_NEGATIVE;
         /// What each may differ by in any case.
-        noise: f64 = 0.001, "m", NOT_NEGATIVE;
+        noise: f64 = 0.001, "m" of camera, NOT_NEGATIVE;
         /// Heights that are known less well do not tell.
         sure: f64 = 0.01, "m", POSITIVE;
         /// Ground that rises by less per metre is level.

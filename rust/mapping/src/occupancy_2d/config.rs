@@ -18,7 +18,7 @@ settings! {
         /// Angle between the beams of the scan that is made.
         beam: f64 = 0.0175, "rad", within(0.001, 0.5);
         /// Points further away than this are left out.
-        max_range: f64 = 4.0, "m", POSITIVE;
+        max_range: f64 = 4.0, "m" of camera, POSITIVE;
         /// Points in a cell of which a frame needs so many to hold it for occupied; fewer are mismatches.
         least_points: usize = 2, "1", at_least(1.0);
         /// Floor that is seen in a beam is free between two of its points that lie no further apart than this, the nearest and farthest among them.

@@ -57,7 +57,7 @@ settings! {
         /// Points of a horizontal plane are moved along their ray to the plane's height.
         snap: bool = true, "-", settings::ANY, "000, section III.A, step 2";
         /// Points that are further away than this only clear the way up to it.
-        max_range: f64 = 4.0, "m", POSITIVE;
+        max_range: f64 = 4.0, "m" of camera, POSITIVE;
         /// Floor that is seen from further away than this counts as no sighting: at 1.2 m and beyond, a step of 30 mm is so little of a
         /// pixel that the treads of stairs run into each other and into the ground.
         sure_range: f64 = 1.2, "m", NOT_NEGATIVE;

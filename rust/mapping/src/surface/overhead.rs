@@ -22,9 +22,9 @@ settings! {
         /// From this share of the room on it is kept where lines of sight went through: what hangs was looked under there.
         under: f64 = 0.3, "1", above_to(0.0, 1.0);
         /// A line of sight that ends at nothing is free up to this distance: things nearer show in the camera's picture.
-        empty_range: f64 = 2.0, "m", POSITIVE;
+        empty_range: f64 = 2.0, "m" of camera, POSITIVE;
         /// Nearer than this the camera sees nothing, so that an empty picture tells nothing.
-        blind_range: f64 = 0.3, "m", NOT_NEGATIVE;
+        blind_range: f64 = 0.3, "m" of camera, NOT_NEGATIVE;
         /// So many pixels around one without depth must be without depth or deeper before the way there counts as free.
         beside: usize = 1, "1", within(0.0, 8.0);
         /// Weight of a frame's lowest point of what hangs above a cell, beside those of the frames before.

@@ -32,9 +32,9 @@ settings! {
         /// Surfaces of the static map are joined by steps of at most this.
         rise: f64 = 0.07, "m", POSITIVE;
         /// A line of sight on which nothing was seen, though nothing hides what is there, is free so far. 0: it tells nothing.
-        unseen_range: f64 = 3.0, "m", NOT_NEGATIVE;
+        unseen_range: f64 = 3.0, "m" of camera, NOT_NEGATIVE;
         /// The camera may be blind to what is nearer than this.
-        blind_range: f64 = 0.6, "m", POSITIVE;
+        blind_range: f64 = 0.6, "m" of camera, POSITIVE;
         /// Numbers that few will want to turn.
         tuning: TwoMapsTuning;
     }

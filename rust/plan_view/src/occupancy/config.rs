@@ -20,7 +20,7 @@ settings! {
         /// Cells that are more probably occupied are obstacles.
         obstacle: f64 = 0.6, "1", between(0.0, 1.0);
         /// Beams see no further than this; of longer ones the part up to here counts, as free.
-        max_range: f64 = 50.0, "m", POSITIVE;
+        max_range: f64 = 50.0, "m" of camera, POSITIVE;
         /// Most cells of a map that grows.
         most_cells: usize = 50_000_000, "1", at_least(16.0);
     }

@@ -7,7 +7,7 @@ settings! {
     pub struct SenseWatchConfig("navigation.sense_watch") {
         /// A force cell, or an inertial unit, whose readings stay the same to the bit for this long while others change is stuck: noise
         /// never repeats itself.
-        constant: f64 = 0.015, "s", POSITIVE;
+        constant: f64 = 0.015, "s" of sensor, POSITIVE;
         /// Feet that carry less than this share of the robot's weight carry too little.
         least_load: f64 = 0.65, "1", above_to(0.0, 1.0);
         /// Time for which feet that carry too little are believed: a landing shakes them.
@@ -22,9 +22,9 @@ settings! {
         stuck_time: f64 = 0.1, "s", POSITIVE;
         /// A gyroscope that tells this turn of a robot whose joints and feet rest is wrong: more than twenty standard
         /// deviations of the bias of those that come along.
-        resting: f64 = 0.02, "rad/s", POSITIVE;
+        resting: f64 = 0.02, "rad/s" of sensor, POSITIVE;
         /// Time over which a resting gyroscope is averaged.
-        resting_time: f64 = 0.9, "s", POSITIVE;
+        resting_time: f64 = 0.9, "s" of sensor, POSITIVE;
         /// Joints rest while none of the legs' encoders moves by more than this in that time.
         joint_rest: f64 = 0.0035, "rad", POSITIVE;
         /// Time over which the turn by the gyroscope is held against the turn by the leg that carries, in roll and pitch.

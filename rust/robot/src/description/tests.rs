@@ -10,7 +10,7 @@ fn leg(sensors: Option<ForceSensors>) -> Leg {
         width: 0.09,
     };
     Leg {
-        joints: ["a", "b", "c", "d", "e", "f"].map(str::to_owned),
+        joints: ["a", "b", "c", "d", "e", "f"].map(str::to_owned).to_vec(),
         sole,
         sensors,
     }

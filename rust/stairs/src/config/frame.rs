@@ -56,7 +56,7 @@ settings! {
         same_height: f64 = 0.008, "m", POSITIVE;
         /// Noise of a single point's height at a distance of 1 m, which grows with the squared distance; it is added to the
         /// allowed difference where a point lies on no level surface.
-        height_noise: f64 = 0.025, "1/m", NOT_NEGATIVE;
+        height_noise: f64 = 0.025, "1/m" of camera, NOT_NEGATIVE;
         /// Least width of the fringes of a boundary.
         fringe: f64 = 0.008, "m", POSITIVE;
         /// Places along a side at which the picture is asked.

@@ -28,7 +28,7 @@ settings! {
     /// Numbers behind the votes for planes that few will want to turn.
     pub struct HoughTuning("navigation.hough.tuning") {
         /// Planes further away from the camera than this get no vote.
-        farthest: f64 = 4.0, "m", above_to(0.0, 10.0);
+        farthest: f64 = 4.0, "m" of camera, above_to(0.0, 10.0);
         /// How planes are taken out of a picture one after the other.
         peeling: PeelingTuning;
         /// Which of the planes may be a floor.

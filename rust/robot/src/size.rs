@@ -1,0 +1,39 @@
+//! How large a robot is against `qrio`, whose numbers the defaults of all settings are.
+
+use settings::Scale;
+
+use crate::{BodyError, Description};
+
+/// Mass of `qrio`, kg.
+const QRIO_KG: f64 = 7.0;
+
+/// What a description says that says no size.
+pub(crate) const fn own_size() -> f64 {
+    1.0
+}
+
+impl Description {
+    /// Refuses a size that no robot has.
+    pub(crate) fn check_size(&self) -> Result<(), BodyError> {
+        if (0.1..=10.0).contains(&self.scale) {
+            return Ok(());
+        }
+        Err(BodyError::BadValue {
+            what: "scale".to_owned(),
+            allowed: "from 0.1 to 10",
+            found: self.scale.to_string(),
+        })
+    }
+
+    /// Its length and its mass over those of `qrio`. A robot whose scale is 1 has every number of `qrio`'s, whatever its mass.
+    pub fn size(&self) -> Scale {
+        if self.scale == own_size() {
+            return Scale::ONE;
+        }
+        let mass_kg: f64 = self.links.iter().map(|link| link.mass).sum();
+        Scale {
+            length: self.scale,
+            mass: mass_kg / QRIO_KG,
+        }
+    }
+}
