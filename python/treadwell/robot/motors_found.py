@@ -17,7 +17,9 @@ STIFF = 150.0
 DAMPED = 0.02
 """Damping of a servo over its stiffness, s, at that size; longer by the root of the length."""
 SOFT, STIFFEST = 0.8, 3.0
-"""A servo of the model counts where it has between these shares of the rule's stiffness."""
+"""A leg's servo of the model counts where it has between these shares of the rule's stiffness."""
+SOFT_ARM = 0.2
+"""For the others the least share is this: they carry nothing."""
 GIVES_RAD = 0.15
 """By how much other servos give way to their peak torque."""
 SPEED = 8.0
@@ -178,7 +180,8 @@ class Fitting:
         if role is not None:
             kp = min(STIFF * self._stiffer, torque / STIFFEST_RAD)
         kv = kp * DAMPED * self._scale**0.5
-        if found.stiffness is not None and SOFT * kp <= found.stiffness <= STIFFEST * kp:
+        least_share = SOFT_ARM if role is None else SOFT
+        if found.stiffness is not None and least_share * kp <= found.stiffness <= STIFFEST * kp:
             kp, said = found.stiffness, [*said, "kp"]
             kv = max(found.stiffness_damping, 0.5 * kv)
         dof = int(model.jnt_dofadr[joint])
