@@ -146,7 +146,7 @@ class Draft:
     def _stand_table(self, stand: dict[str, float]) -> str:
         if stands_well(self.anatomy.model, self.legs):
             return ""
-        lines = "".join(f"{key(name)} = {angle:g}\n" for name, angle in stand.items())
+        lines = "".join(f"{key(name)} = {angle:.7g}\n" for name, angle in stand.items())
         return (
             "\n[stand]                         # knees bent, soles level under the centre of mass; "
             f"the others: the model's keyframe {STAND!r}, or 0\n{lines}"

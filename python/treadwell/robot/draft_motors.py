@@ -96,6 +96,11 @@ def gait_of(
     return found
 
 
+def moved_by(model: mujoco.MjModel, joint: int) -> float:
+    """Return what a joint has to move while all others are free to give way, kg m²."""
+    return 1.0 / max(float(model.dof_invweight0[model.jnt_dofadr[joint]]), 1e-9)
+
+
 def draft_motors(
     anatomy: Anatomy, legs: Mapping[str, FoundLeg], fitting: Fitting, camera: bool
 ) -> str:
@@ -111,10 +116,10 @@ def draft_motors(
     roles, tied = motor_roles(model, legs), ties_of(model)
     groups: dict[tuple[bool, Servo], list[str]] = {}
     for joint in sorted(drivers(model)):
-        moved = float(model.dof_M0[model.jnt_dofadr[joint]])
+        moved = moved_by(model, joint)
         for follower, tie in tied.items():
             if tie.leader == joint:
-                moved += tie.ratio**2 * float(model.dof_M0[model.jnt_dofadr[follower]])
+                moved += tie.ratio**2 * moved_by(model, follower)
         servo = fitting.servo(joint, roles.get(joint), moved)
         rounded = _rounded(servo)
         groups.setdefault((joint in roles, rounded), []).append(model.joint(joint).name)
