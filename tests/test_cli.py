@@ -105,7 +105,7 @@ def test_without_a_verb_the_help_is_shown_and_nothing_is_wrong(
         (["list", "robot"], "did you mean 'robots'?"),
         (["list", "planner"], "did you mean 'planners'?"),
         (["list", "walls"], "allowed are scenarios, robots, components, experiments, world_models"),
-        (["list", "planners", "a_star"], "only `list parameters`"),
+        (["list", "planners", "a_star"], "only `list parameters` and `list experiments`"),
         (["run", "slalon"], "did you mean 'slalom'?"),
     ],
 )

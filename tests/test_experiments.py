@@ -81,7 +81,7 @@ def test_every_experiments_scenarios_are_there() -> None:
 def test_an_experiment_that_is_not_there_is_bad_input(
     name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    allowed = "allowed are fog, footsteps, indoor, models, nao, stairs, world"
+    allowed = "allowed are fog, footsteps, indoor, models, nao, robots, stairs, world"
     with pytest.raises(InputError, match=allowed):
         find_experiment(name)
     assert execute(["experiment", name]) == 2

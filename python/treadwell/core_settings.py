@@ -49,7 +49,7 @@ class CoreInput:
 
 
 _SAME_LEVEL = 0.02
-"""Metres: heights so near are one level."""
+"""Metres: heights so near are one level, on a course of scale 1."""
 
 
 def core_settings(scenario: Scenario, robot: "Robot", course: "Course") -> str:
@@ -59,7 +59,8 @@ def core_settings(scenario: Scenario, robot: "Robot", course: "Course") -> str:
     the start is told with its height, also where the scenario leaves it at the highest surface.
     """
     goal = scenario.goal
-    other_level = abs(course.goal_height - course.start.height) > _SAME_LEVEL
+    apart = abs(course.goal_height - course.start.height)
+    other_level = apart > _SAME_LEVEL * course.scale
     goal_height = course.goal_height if goal.height is None and other_level else goal.height
     place = course.start
     start = {"position": list(place.position), "height": place.height, "yaw": place.yaw}

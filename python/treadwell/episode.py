@@ -33,6 +33,7 @@ from treadwell.scenario.faults import Fault
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.overrides import Overrides, with_settings
+from treadwell.scenario.scaling import size_of, to_robot
 from treadwell.senses.sensors import Sensors
 from treadwell.stage_times import StageTimes
 
@@ -86,7 +87,7 @@ class Episode:
     by one control tick of 10 ms.
 
     Attributes:
-        scenario: as it is run, with overrides and draws applied.
+        scenario: as it is run, with overrides and draws applied, and fitted to the robot.
         robot, course, simulation, sensors, events, judge, referee: the parts of the harness.
         pilot: the core.
         guards: slot -> what stands between the core and a component of the user's.
@@ -124,8 +125,8 @@ class Episode:
             settings = with_settings(overrides, class_names(components))
             components = brought(components)
             scenario = load_scenario(scenario, robot=robot, seed=seed, overrides=settings)
-        self.scenario = scenario
         self.robot = load_robot(scenario.robot)
+        self.scenario = scenario = to_robot(scenario, self.robot)
         self.course = build_course(scenario, self.robot)
         place, ideal = self.course.start, scenario.sensors.encoders == "ideal"
         start = Start(*place.position, yaw=place.yaw, height=place.height)
@@ -142,7 +143,7 @@ class Episode:
         self._broken: list[Fault] = []
         self._late = LateTargets()
         self.judge = Judge(self.course.model, self.course, scenario, self.robot)
-        self.referee = Referee(self.judge, scenario.time_limit)
+        self.referee = Referee(self.judge, scenario.time_limit, size_of(self.robot).patience)
         self.verdict: Verdict | None = None
         self.times = StageTimes(("physics", "depth", *FOOTSTEP_STAGES), Pilot.stages)
         self._plans = 0

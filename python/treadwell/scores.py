@@ -97,6 +97,7 @@ def result_of(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: 
         version=__version__,
         processor=processor(),
         configuration=made.configuration(),
+        scale=course.scale,
         ablation=episode.ablation,
         outcome=verdict.outcome,
         reason=verdict.reason,

@@ -156,7 +156,7 @@ app.command(short_help="Be the core of a robot elsewhere.", epilog=serve_verb.EX
     short_help="Run a paper's experiments, its figures beside ours.",
     epilog="Example: treadwell experiment stairs --seeds 5 --out runs/stairs",
 )
-def experiment(
+def experiment(  # noqa: PLR0913 - one an option
     name: Annotated[
         str,
         typer.Argument(
@@ -172,6 +172,15 @@ def experiment(
     first_seed: Annotated[
         int, typer.Option("--first-seed", metavar="N", min=0, help="The first of them.")
     ] = 0,
+    robots: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--robots",
+            metavar="NAME|FOLDER",
+            help="Which robot takes part in `robots`; may be given again; default: all that ship.",
+            autocompletion=completion.robots,
+        ),
+    ] = None,
     only: Annotated[
         list[str] | None,
         typer.Option(
@@ -199,6 +208,7 @@ def experiment(
 
     return cli_experiment.experiment(
         name,
+        robots=robots or (),
         only=only or (),
         seeds=range(first_seed, first_seed + seeds),
         workers=workers,

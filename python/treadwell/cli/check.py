@@ -11,6 +11,7 @@ from treadwell.robot.load import load_robot
 from treadwell.scenario.event_table import EventTable
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
+from treadwell.scenario.scaling import to_robot
 
 
 def checked(
@@ -29,6 +30,7 @@ def checked(
     """
     scenario = load_scenario(name_or_path, robot=robot, seed=seed, overrides=settings)
     body = load_robot(scenario.robot)
+    scenario = to_robot(scenario, body)
     course = build_course(scenario, body)
     parts = foreign_parts(scenario.navigation.slots())
     files = examined(parts, str(scenario.path))

@@ -137,8 +137,10 @@ def list_kinds() -> list[str]:
     return kinds()
 
 
-def parameter_tables(context: typer.Context) -> list[str]:
-    """Return whose parameters `list parameters` can show."""
+def list_names(context: typer.Context) -> list[str]:
+    """Return whose parameters `list parameters` can show; of `list experiments` the experiments."""
+    if context.params.get("what") == "experiments":
+        return experiments()
     if context.params.get("what") != "parameters":
         return []
     from treadwell.reference.parameters import all_tables

@@ -21,6 +21,7 @@ from treadwell.experiments.conduct import Report, conduct
 def experiment(
     name: str,
     *,
+    robots: Sequence[str] = (),
     only: Sequence[str],
     seeds: range,
     workers: int | None,
@@ -32,6 +33,7 @@ def experiment(
 
     Args:
         name: which.
+        robots: names and folders of those that take part; none: the experiment's own.
         only: names of its cases that are run; all where there is none.
         seeds: of each case.
         workers: processes that run episodes at the same time; None: as many as there are cores.
@@ -40,9 +42,9 @@ def experiment(
         record: keep a recording of every run.
 
     Raises:
-        InputError: there is no such experiment or case, or the folder cannot be taken.
+        InputError: there is no such experiment, robot or case, or the folder cannot be taken.
     """
-    chosen = find_experiment(name).narrowed(only)
+    chosen = find_experiment(name).with_robots(robots).narrowed(only)
     workers = workers or os.cpu_count() or 1
     report = conduct(chosen, seeds, out, workers=workers, record=record, progress=ProgressLine)
     if as_json:

@@ -7,7 +7,12 @@ from treadwell.cli.output import write_table
 from treadwell.errors import InputError, TreadwellError
 
 PARAMETERS: Final = "parameters"
-WITHOUT_KIND: Final = ("scenarios", "robots", "components", "experiments")
+EXPERIMENTS: Final = "experiments"
+NAMED: Final = (PARAMETERS, EXPERIMENTS)
+"""Kinds of which one name can be asked for."""
+CASES: Final = "cases"
+"""What is shown of a single experiment."""
+WITHOUT_KIND: Final = ("scenarios", "robots", "components", EXPERIMENTS)
 """What is shown where no kind is asked for."""
 
 
@@ -41,17 +46,19 @@ def listed(
 
     Args:
         kinds: of what the function `kinds` returns.
-        name: whose parameters; None: all.
+        name: whose parameters, or which experiment's cases; None: all.
         robot: the robot whose defaults the parameters have; None: no robot's.
 
     Raises:
-        InputError: nothing has parameters by that name, or there is no such robot.
+        InputError: nothing has parameters by that name, or there is no such experiment or robot.
     """
+    if name is not None and list(kinds) == [EXPERIMENTS]:
+        return {CASES: _cases(name)}
     makers: dict[str, Callable[[], Any]] = {
         "scenarios": _scenarios,
         "robots": _robots,
         "components": _components,
-        "experiments": _experiments,
+        EXPERIMENTS: _experiments,
         PARAMETERS: lambda: _parameters(name, robot),
     }
     return {
@@ -70,7 +77,13 @@ def show(document: Mapping[str, Any]) -> None:
                 for name, text in names.items()
             ]
             write_table(kind, ("slot", "name", "what it is"), triples)
-        elif kind == "experiments":
+        elif kind == CASES:
+            lines = [
+                (each["name"], each["scenario"], f"{each['share']:g}", ", ".join(each["settings"]))
+                for each in entries
+            ]
+            write_table(kind, ("name", "scenario", "runs a seed", "settings"), lines)
+        elif kind == EXPERIMENTS:
             triples = [
                 (each["name"], each["description"], ", ".join(each["cases"])) for each in entries
             ]
@@ -138,6 +151,20 @@ def _experiments() -> list[dict[str, Any]]:
             "cases": [case.name for case in made.cases],
         }
         for made in EXPERIMENTS.values()
+    ]
+
+
+def _cases(name: str) -> list[dict[str, Any]]:
+    from treadwell.experiments.catalogue import find_experiment
+
+    return [
+        {
+            "name": case.name,
+            "scenario": case.scenario if isinstance(case.scenario, str) else "drawn",
+            "share": case.share,
+            "settings": list(case.overrides),
+        }
+        for case in find_experiment(name).cases
     ]
 
 

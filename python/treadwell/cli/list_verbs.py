@@ -37,8 +37,8 @@ def list_(
         str | None,
         typer.Argument(
             metavar="NAME",
-            help="Whose parameters: a component, a stage, a key.",
-            autocompletion=completion.parameter_tables,
+            help="Whose parameters: a component, a stage, a key; or which experiment's cases.",
+            autocompletion=completion.list_names,
         ),
     ] = None,
     *,
@@ -55,14 +55,15 @@ def list_(
 ) -> int:
     """Show what there is to choose from: scenarios, robots, components, experiments.
 
-    `list parameters` shows every parameter with default, unit, bounds, meaning and source.
+    `list parameters` shows every parameter with default, unit, bounds, meaning and source, `list
+    experiments NAME` what is run of one.
     """
     from treadwell.cli import list as cli_list
 
     if what is not None:
         cli_list.check_kind(what)
-    if name is not None and what != cli_list.PARAMETERS:
-        raise InputError("NAME: only `list parameters` takes one")
+    if name is not None and what not in cli_list.NAMED:
+        raise InputError("NAME: only `list parameters` and `list experiments` take one")
     if robot is not None and what != cli_list.PARAMETERS:
         raise InputError("--robot: only `list parameters` takes one")
     document = cli_list.listed([what] if what else cli_list.WITHOUT_KIND, name, robot)

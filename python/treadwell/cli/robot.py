@@ -156,7 +156,14 @@ def _show_gait(gait: Mapping[str, Any]) -> None:
             ("hips high", "hip_height"),
         )
     )
-    rows: list[Sequence[object]] = [("legs", lengths, "")]
+    open_turn = gait["left_open"]
+    solved = gait["solved_by"] + (
+        f"; five joints leave the sole's {open_turn} free" if open_turn else ""
+    )
+    rows: list[Sequence[object]] = [
+        ("legs", lengths, f"{gait['scale']:g} times as long as qrio's"),
+        ("inverse kinematics", solved, ""),
+    ]
     for word, key, unit in (
         ("longest step", "step", "mm"),
         ("widest side step", "sideways", "mm"),
@@ -187,7 +194,8 @@ def _show_gait(gait: Mapping[str, Any]) -> None:
         )
     rows.append(("speed", f"{gait['speed']:.2f} m/s", ""))
     write_table(
-        "what the gait can do (statics on treads of 120 mm: nothing moves or touches)",
+        f"what the gait can do (statics on treads of {1e3 * gait['tread']:.0f} mm: "
+        "nothing moves or touches)",
         ("", "", ""),
         rows,
     )

@@ -108,12 +108,15 @@ def _sketch(folders: Sequence[Path]) -> tuple[Sketch | None, str]:
     from treadwell.course.build import build_course
     from treadwell.robot.load import load_robot
     from treadwell.scenario.loading import load_scenario
+    from treadwell.scenario.scaling import to_robot
 
     fault = ""
     for folder in folders:
         try:
-            made = load_scenario(folder / SCENARIO)
-            course = build_course(made, load_robot(made.robot))
+            written = load_scenario(folder / SCENARIO)
+            robot = load_robot(written.robot)
+            made = to_robot(written, robot)
+            course = build_course(made, robot)
         except TreadwellError as error:
             fault = fault or f"the course cannot be drawn: {error}"
             continue

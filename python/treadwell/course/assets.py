@@ -61,6 +61,23 @@ def read_mjcf(folder: Path, file: str, what: str) -> mujoco.MjSpec:
     return spec
 
 
+def multiply(spec: mujoco.MjSpec, factor: float) -> None:
+    """Multiply all lengths of an MJCF world, in place: places, sizes, meshes and height fields."""
+    if factor == 1.0:
+        return
+    for items in (spec.bodies, spec.joints, spec.geoms, spec.sites, spec.lights, spec.frames):
+        for item in items:
+            item.pos = factor * np.asarray(item.pos)
+    for items in (spec.geoms, spec.sites):
+        for item in items:
+            item.size = factor * np.asarray(item.size)
+            item.fromto = factor * np.asarray(item.fromto)
+    for mesh in spec.meshes:
+        mesh.scale = factor * np.asarray(mesh.scale)
+    for field in spec.hfields:
+        field.size = factor * np.asarray(field.size)
+
+
 def mjcf_pieces(
     model: mujoco.MjModel, data: mujoco.MjData, geom_ids: list[int]
 ) -> tuple[list[Piece], list[Top]]:

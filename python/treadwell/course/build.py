@@ -1,11 +1,9 @@
 """Builds a course: a scenario's elements and the robot as one MuJoCo model."""
 
-import math
-
 import mujoco
 import numpy as np
 
-from treadwell.course.assets import mjcf_pieces, read_mjcf
+from treadwell.course.assets import mjcf_pieces, multiply, read_mjcf
 from treadwell.course.check import check_start
 from treadwell.course.course import LEVEL_TOLERANCE, Course, CourseElement, Place, levels_at
 from treadwell.course.geometry import (
@@ -17,17 +15,18 @@ from treadwell.course.geometry import (
     add_stems,
 )
 from treadwell.course.outlines import Floats
-from treadwell.course.pieces import about_z
 from treadwell.course.plan import PlannedElement, plan_course
 from treadwell.errors import InputError
 from treadwell.mjcf.build import compiled
 from treadwell.robot.load import Robot
+from treadwell.robot.standing import ROOT, standing_root
 from treadwell.scenario.ground_elements import Patch
 from treadwell.scenario.model import Scenario
+from treadwell.scenario.scaling import to_robot
 
 
 def build_course(scenario: Scenario, robot: Robot) -> Course:
-    """Build the model of a scenario: ground, elements, robot at the start.
+    """Build the model of a scenario, fitted to the robot: ground, elements, robot at the start.
 
     Elements that events add, remove or move are mocap bodies; what is not there yet is parked far
     below the ground.
@@ -36,6 +35,7 @@ def build_course(scenario: Scenario, robot: Robot) -> Course:
         InputError: a file is broken, no scattered layout leaves a way, the robot would start inside
             an obstacle or over a void, or an event names a joint or a door that is not there.
     """
+    scenario = to_robot(scenario, robot)
     planned = plan_course(scenario, robot)
     plans = planned.elements
     friction = scenario.physics.friction
@@ -68,6 +68,7 @@ def build_course(scenario: Scenario, robot: Robot) -> Course:
         texture=texture,
         geom_element=geom_element,
         events=tuple(planned.events),
+        scale=scenario.scale.length,
     )
     course.set_friction(model.geom_friction, friction)
     _put_first(course)
@@ -82,6 +83,7 @@ def _add(
     if plan.mjcf is not None:
         what = f"{scenario.path or scenario.name}: course.{plan.name}.file: {plan.mjcf}"
         child = read_mjcf(scenario.folder, plan.mjcf, what)
+        multiply(child, scenario.scale.length)
         spec.attach(child, frame=spec.worldbody.add_frame(), prefix=f"{PREFIX}{plan.name}/")
         return None
     body, origin = spec.worldbody, np.zeros(3)
@@ -176,18 +178,9 @@ def _scale_masses(model: mujoco.MjModel, robot: Robot, scale: float) -> None:
 def _standing(model: mujoco.MjModel, robot: Robot, start: Place) -> Floats:
     """Return the positions (nq,) with the robot standing at the start."""
     qpos: Floats = model.qpos0.copy()
-    stand = robot.stand_qpos
     address = int(model.joint(robot.base).qposadr[0])
-    turn = about_z(start.yaw)
-    ahead = np.array(
-        [
-            stand[0] * math.cos(start.yaw) - stand[1] * math.sin(start.yaw),
-            stand[0] * math.sin(start.yaw) + stand[1] * math.cos(start.yaw),
-        ]
-    )
-    qpos[address : address + 2] = np.array(start.position) + ahead
-    qpos[address + 2] = stand[2] + start.height
-    mujoco.mju_mulQuat(qpos[address + 3 : address + 7], turn, stand[3:7])
+    place = (*start.position, start.height)
+    qpos[address : address + ROOT] = standing_root(robot, place, start.yaw)
     for joint, angle in zip(robot.joints, robot.stand, strict=True):
         qpos[int(model.joint(joint).qposadr[0])] = angle
     return qpos
@@ -215,7 +208,7 @@ def _level(
     if height is None:
         return heights[-1]
     best = min(heights, key=lambda candidate: abs(candidate - height))
-    if abs(best - height) > LEVEL_TOLERANCE:
+    if abs(best - height) > LEVEL_TOLERANCE * scenario.scale.length:
         listed = ", ".join(f"{h:g}" for h in heights)
         raise InputError(
             f"{scenario.path or scenario.name}: {key}.height: found {height:g}; there "

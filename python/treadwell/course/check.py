@@ -16,9 +16,11 @@ from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
 
 DEEPEST_CONTACT: Final = 0.003
-"""Metres that a part of the robot may lie inside something at the start."""
+"""Metres that a part of a robot of scale 1 may lie inside something at the start."""
+FLUSH: Final = 0.01
+"""Metres that something may be higher than the ground and no obstacle, on a course of scale 1."""
 UNEVEN: Final = 0.015
-"""Metres by which the surface may differ under the soles' corners."""
+"""Metres by which the surface may differ under the corners of the soles of such a robot."""
 
 
 def check_start(scenario: Scenario, robot: Robot, course: Course) -> None:
@@ -31,7 +33,7 @@ def check_start(scenario: Scenario, robot: Robot, course: Course) -> None:
     data = mujoco.MjData(course.model)
     data.qpos[:] = course.qpos
     mujoco.mj_forward(course.model, data)
-    in_the_way = _inside(course, robot) or _touching(course, data)
+    in_the_way = _inside(course, robot) or _touching(course, data, DEEPEST_CONTACT * robot.scale)
     if in_the_way:
         raise InputError(
             f"{where}: start.position: found {list(scenario.start.position)}; the robot "
@@ -51,9 +53,10 @@ def check_start(scenario: Scenario, robot: Robot, course: Course) -> None:
 
 
 def _inside(course: Course, robot: Robot) -> str:
-    """Return the element whose outline the robot's middle stands in, nothing if there is none."""
+    """Return the element whose outline the soles' middle lies in, nothing if there is none."""
     point = np.array([course.start.position])
-    floor, head = course.start.height + 0.01, course.start.height + robot.file.body.height
+    floor = course.start.height + FLUSH * course.scale
+    head = course.start.height + robot.file.body.height
     for element in course.elements:
         if not element.present:
             continue
@@ -64,14 +67,14 @@ def _inside(course: Course, robot: Robot) -> str:
     return ""
 
 
-def _touching(course: Course, data: mujoco.MjData) -> str:
-    """Return the element that a part of the standing robot lies in, nothing when there is none."""
+def _touching(course: Course, data: mujoco.MjData, deepest: float) -> str:
+    """Return the element that a part of the standing robot lies in by more than this, m; or ""."""
     for contact in data.contact:
         indices = course.geom_element[contact.geom]
-        if contact.dist < -DEEPEST_CONTACT and indices.max() >= 0:
+        if contact.dist < -deepest and indices.max() >= 0:
             return course.elements[int(indices.max())].name
         names = {course.model.geom(int(geom)).name for geom in contact.geom}
-        if contact.dist < -DEEPEST_CONTACT and GROUND in names:
+        if contact.dist < -deepest and GROUND in names:
             return GROUND
     return ""
 
@@ -88,7 +91,7 @@ def _check_ground(course: Course, robot: Robot, data: mujoco.MjData, where: str)
                 corners.append((body.xpos + body.xmat.reshape(3, 3) @ local)[:2])
     for x, y in corners:
         below = min((abs(h - course.start.height) for h in course.levels_at(x, y)), default=np.inf)
-        if below > UNEVEN:
+        if below > UNEVEN * robot.scale:
             raise InputError(
                 f"{where}: start.position: found {list(course.start.position)}; a sole's "
                 f"corner at [{x:.3f}, {y:.3f}] would be over a void"

@@ -1,7 +1,7 @@
 """The course as it was built: the model with the robot in it, and what stands where."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import mujoco
@@ -76,6 +76,15 @@ class CourseElement:
         """Whether it has tops to walk on."""
         return bool(self.tops)
 
+    def multiplied(self, factor: float) -> "CourseElement":
+        """Return the element with all lengths multiplied, its distance from the origin, too."""
+        return replace(
+            self,
+            pieces=tuple(piece.multiplied(factor) for piece in self.pieces),
+            tops=tuple(top.multiplied(factor) for top in self.tops),
+            origin=factor * self.origin,
+        )
+
 
 @dataclass(frozen=True)
 class Place:
@@ -84,6 +93,11 @@ class Place:
     position: tuple[float, float]
     height: float
     yaw: float
+
+    def multiplied(self, factor: float) -> "Place":
+        """Return the place so many times as far from the origin."""
+        x, y = self.position
+        return Place((factor * x, factor * y), factor * self.height, self.yaw)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,10 +109,11 @@ class Course:
         elements: in the order of the file, scattered ones in place, those of events last.
         start: where the robot stands.
         goal_height: height of the surface at the goal, metres.
-        qpos: (nq,) the robot in its standing posture at the start.
+        qpos: (nq,) the robot in its standing posture at the start, its soles' middle there.
         texture: (ngeom,) how well stereo sees each geom, 0 to 1.
         geom_element: (ngeom,) index into `elements`, -1 for the ground and the robot.
         events: what happens on the way: the scenario's, then what drawn elements bring.
+        scale: what the lengths of the scenario's file were multiplied by.
     """
 
     model: mujoco.MjModel
@@ -109,6 +124,7 @@ class Course:
     texture: Floats
     geom_element: npt.NDArray[np.intp]
     events: tuple[Event, ...] = ()
+    scale: float = 1.0
     _by_name: dict[str, CourseElement] = field(default_factory=dict)
 
     def element(self, name: str) -> CourseElement | None:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from treadwell.course.course import LEVEL_TOLERANCE, Course, CourseElement
 from treadwell.course.doors import with_leaf
 from treadwell.course.geometry import parked
-from treadwell.course.motions import Motion, Swing
+from treadwell.course.motions import ROOM, Motion, Swing
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import about_z
 from treadwell.robot.load import Robot
@@ -138,7 +138,8 @@ class Events:
             case Move():
                 element = self._course.element(event.name)
                 if element is not None and event.name in self.present:
-                    self._motions[event.name] = Motion(element, event)
+                    room = ROOM * self._course.scale
+                    self._motions[event.name] = Motion(element, event, room)
             case SetDoor():
                 for leaf in self._course.elements:
                     if leaf.hinge is not None and leaf.hinge.door == event.name:
@@ -230,7 +231,8 @@ class Events:
         """Return the surface at a point: the one named, or the highest that lies below `z`."""
         levels = self._course.levels_at(x, y) or [0.0]
         if height is not None:
-            named = [level for level in levels if abs(level - height) <= LEVEL_TOLERANCE]
+            near = LEVEL_TOLERANCE * self._course.scale
+            named = [level for level in levels if abs(level - height) <= near]
             return named[0] if named else height
         return max((level for level in levels if level < z), default=levels[0])
 

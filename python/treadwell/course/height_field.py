@@ -1,9 +1,9 @@
 """A height field of a course: the ground that a file draws, with its true height everywhere."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Final
+from typing import Final, Self
 
 import mujoco
 import numpy as np
@@ -99,6 +99,16 @@ class HeightField:
                     found = np.maximum(found, most[row + i, column + j])
         return found
 
+    def multiplied(self, factor: float) -> "HeightField":
+        """Return the field with all its lengths multiplied, its distance from the origin, too."""
+        return replace(
+            self,
+            heights=factor * self.heights,
+            middle=factor * self.middle,
+            half=factor * self.half,
+            bottom=factor * self.bottom,
+        )
+
     def _in_cells(self, points: Floats) -> Floats:
         """Return where points (n, 2) lie, in columns and rows from the first height, (n, 2)."""
         last = np.array(self.heights.shape)[::-1] - 1.0
@@ -119,6 +129,10 @@ class FieldTop(Top):
         """Return the height of the surface at the points (n, 2), m."""
         return self.field.surface(points)
 
+    def multiplied(self, factor: float) -> Self:
+        """Return the surface with all its lengths multiplied."""
+        return replace(super().multiplied(factor), field=self.field.multiplied(factor))
+
 
 @dataclass(frozen=True)
 class FieldPiece(Piece):
@@ -134,6 +148,10 @@ class FieldPiece(Piece):
     def top_at(self, points: Floats) -> Floats:
         """Return the height of the surface at points (n, 2), m."""
         return self.field.surface(points)
+
+    def multiplied(self, factor: float) -> Self:
+        """Return the solid with all its lengths multiplied."""
+        return replace(super().multiplied(factor), field=self.field.multiplied(factor))
 
 
 def height_field(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> HeightField:

@@ -14,7 +14,7 @@ from treadwell.scenario.events import Move
 DOOR_SECONDS: Final = 1.0
 """How long a door takes to where it is set."""
 ROOM: Final = 0.15
-"""Metres that who gives way leaves between itself and the robot."""
+"""Metres that who gives way leaves between itself and the robot, on a course of scale 1."""
 PATIENCE: Final = 3.0
 """Seconds that who gives way waits before it turns back."""
 
@@ -26,6 +26,7 @@ class Motion:
     Attributes:
         element: what moves.
         move: the event.
+        room: metres that it leaves between itself and the robot, where it gives way.
         reach: radius of its outline about its reference point, metres.
         next: index of the point that it goes to.
         back: whether it goes along its path the other way.
@@ -34,6 +35,7 @@ class Motion:
 
     element: CourseElement
     move: Move
+    room: float = ROOM
     reach: float = field(init=False)
     next: int = 0
     back: bool = False
@@ -83,7 +85,7 @@ class Motion:
         if not self.move.gives_way:
             return False
         towards = robot - place[:2]
-        close = math.hypot(*towards) < self.reach + radius + ROOM
+        close = math.hypot(*towards) < self.reach + radius + self.room
         if not close or float(towards @ ahead) <= 0.0:
             self.waited = 0.0
             return False

@@ -2,8 +2,8 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Final, Literal
+from dataclasses import dataclass, replace
+from typing import Final, Literal, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -80,6 +80,12 @@ class Piece:
         level = bool(np.abs(self.quaternion[1:3]).max() < 1e-9)
         return self.shape in {"box", "cylinder"} and level
 
+    def multiplied(self, factor: float) -> Self:
+        """Return the piece with all its lengths multiplied, its distance from the origin, too."""
+        lengths = (self.vertices, self.center, self.size)
+        vertices, center, size = (factor * each for each in lengths)
+        return replace(self, vertices=vertices, center=center, size=size)
+
 
 @dataclass(frozen=True)
 class Top:
@@ -115,6 +121,10 @@ class Top:
     def height(self) -> float:
         """The mean height of its corners, metres: the height itself where it is level."""
         return float(self.polygon[:, 2].mean())
+
+    def multiplied(self, factor: float) -> Self:
+        """Return the surface with all its lengths multiplied, its distance from the origin, too."""
+        return replace(self, polygon=factor * self.polygon)
 
 
 def bounds(pieces: Iterable[Piece], places: Floats) -> tuple[Floats, Floats]:

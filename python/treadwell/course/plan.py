@@ -1,7 +1,7 @@
 """What a course will consist of: every element with its name, geometry and part in the events."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -29,6 +29,7 @@ from treadwell.scenario.events import Add, Event, Move, Remove, SetDoor
 from treadwell.scenario.ground_elements import Slabs, Terrain, Vegetation
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
+from treadwell.scenario.scaling import scaled_event
 from treadwell.scenario.values import element_names
 
 SPARE_WIDTH = 0.1
@@ -65,6 +66,23 @@ class PlannedElement:
     hinge: Hinge | None = None
     stems: tuple[Floats, Any] | None = None
 
+    def multiplied(self, factor: float) -> "PlannedElement":
+        """Return the same element with all lengths multiplied; an MJCF world's when it is read."""
+        if factor == 1.0:
+            return self
+        shape, stems = (
+            None if mesh is None else (factor * mesh[0], mesh[1])
+            for mesh in (self.shape, self.stems)
+        )
+        return replace(
+            self,
+            pieces=tuple(piece.multiplied(factor) for piece in self.pieces),
+            tops=tuple(top.multiplied(factor) for top in self.tops),
+            origin=factor * self.origin,
+            shape=shape,
+            stems=stems,
+        )
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -90,9 +108,14 @@ def all_elements(scenario: Scenario) -> list[tuple[str, ElementTable, int | None
 def plan_course(scenario: Scenario, robot: Robot) -> Plan:
     """Return every element of a scenario, those that draw themselves drawn, and all events.
 
+    All is drawn and laid out in the lengths in which the scenario is written, so that one seed
+    draws the same for robots of all sizes, and is multiplied then where it was fitted to one.
+
     Raises:
         InputError: a mesh is broken, an event names what it cannot move, or no layout leaves a way.
     """
+    fitted, scenario = scenario, scenario.written
+    scale = fitted.scale
     elements = all_elements(scenario)
     check_names(scenario, elements)
     moved = _moved(scenario.event)
@@ -104,12 +127,13 @@ def plan_course(scenario: Scenario, robot: Robot) -> Plan:
     ]
     there = [plan for plans in fixed if plans is not None for plan in plans if plan.present]
     result: list[PlannedElement] = []
-    events: list[Event] = list(scenario.event)
+    events: list[Event] = list(fitted.event)
+    width = 2 * robot.file.body.radius / scale.length
     for (name, element, _), plans in zip(elements, fixed, strict=True):
         if plans is not None:
             result += plans
             continue
-        drawn = _drawn(scenario, robot, name, element, there)
+        drawn = _drawn(scenario, width, name, element, there)
         moved = _moved(drawn.events)
         made = [
             plan
@@ -118,21 +142,20 @@ def plan_course(scenario: Scenario, robot: Robot) -> Plan:
         ]
         result += made
         there += made
-        events += drawn.events
-    return Plan(result, events)
+        events += [scaled_event(event, scale) for event in drawn.events]
+    return Plan([plan.multiplied(scale.length) for plan in result], events)
 
 
 def _drawn(
     scenario: Scenario,
-    robot: Robot,
+    width: float,
     name: str,
     element: ElementTable,
     there: Sequence[PlannedElement],
 ) -> Drawn:
-    """Return what an element that draws itself consists of."""
+    """Return what an element that draws itself consists of, for a robot of this width, m."""
     goal = scenario.goal
     stops = [np.array(stop) for stop in (scenario.start.position, *goal.via, goal.position)]
-    width = 2 * robot.file.body.radius
     try:
         if isinstance(element, House):
             return drawn_house(element, name, seed=scenario.seed, stops=stops, width=width)

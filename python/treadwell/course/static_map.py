@@ -16,7 +16,8 @@ from treadwell.errors import InputError
 from treadwell.scenario.loading import map_file_fault
 
 MARGIN: Final = 1.0
-"""Metres of ground that the map has around what stands on it, and around the start."""
+"""Metres of ground that the map has around what stands on it, and around the start, where the
+course's scale is 1."""
 
 MOST_VOXELS: Final = 2**24
 """Voxels that the box around a map may have: what a localizer keeps of each is 8 bytes."""
@@ -125,7 +126,7 @@ def _extent(course: Course, mapped: list[CourseElement]) -> tuple[Floats, Floats
     """Return the lowest and the highest corner of what is mapped, with the margin, metres."""
     start = np.array([[*course.start.position, course.start.height]])
     low, high = bounds((piece for element in mapped for piece in element.pieces), start)
-    margin = np.array([MARGIN, MARGIN, 0.0])
+    margin = course.scale * np.array([MARGIN, MARGIN, 0.0])
     low, high = low - margin, high + margin
     low[2] = min(low[2], 0.0)
     return low, high

@@ -21,8 +21,10 @@ from treadwell.errors import CoreError, InputError, SimulationError
 from treadwell.judging.verdict import Verdict
 from treadwell.physics.simulation import TICK_NS
 from treadwell.processor import likely_reason, processor
+from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.overrides import Overrides
+from treadwell.scenario.scaling import to_robot
 
 GOAL_REWARD: Final = 10.0
 FALL_REWARD: Final = -10.0
@@ -213,6 +215,8 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
     def _begin(self, seed: int) -> None:
         self.close()  # where nothing can be built, the episode before does not go on
         made = load_scenario(self._scenario, seed=seed, **self._asked)
+        if made.scale_to_robot:
+            made = to_robot(made, load_robot(made.robot))
         self._behaviour = Commanded(made.goal.height)
         self._episode = Episode(
             made, user_code=self._user_code, behaviour=self._behaviour, planner=NoPlanner()

@@ -10,11 +10,12 @@ from treadwell.experiments.footsteps.experiment import FOOTSTEPS
 from treadwell.experiments.indoor.experiment import INDOOR
 from treadwell.experiments.models.experiment import MODELS
 from treadwell.experiments.nao import NAO
+from treadwell.experiments.robots import ROBOTS
 from treadwell.experiments.stairs import STAIRS
 from treadwell.experiments.world.experiment import WORLD
 
 EXPERIMENTS: Final[dict[str, Experiment]] = {
-    made.name: made for made in (FOG, FOOTSTEPS, INDOOR, MODELS, NAO, STAIRS, WORLD)
+    made.name: made for made in (FOG, FOOTSTEPS, INDOOR, MODELS, NAO, ROBOTS, STAIRS, WORLD)
 }
 
 

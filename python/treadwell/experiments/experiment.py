@@ -141,6 +141,8 @@ class Experiment:
         tables: makes the report of what came out.
         pictures: draws files into a folder, and returns title and path of each.
         beside: what is done beside the runs, where there is anything.
+        of_robots: makes the same experiment of other robots, names and folders; None where the
+            robots are what it is about.
     """
 
     name: str
@@ -149,6 +151,19 @@ class Experiment:
     tables: Callable[[Results], Sequence[Table]]
     pictures: Callable[[Results, Path], Sequence[Picture]] = _no_pictures
     beside: Beside | None = None
+    of_robots: "Callable[[Sequence[str]], Experiment] | None" = None
+
+    def with_robots(self, robots: Sequence[str]) -> "Experiment":
+        """Return the experiment with these robots, names or folders; as it is where there are none.
+
+        Raises:
+            InputError: its robots cannot be chosen, or one of these is none.
+        """
+        if not robots:
+            return self
+        if self.of_robots is None:
+            raise InputError(f"--robots: {self.name} has robots of its own; `robots` takes others")
+        return self.of_robots(robots)
 
     def narrowed(self, names: Sequence[str]) -> "Experiment":
         """Return the experiment with these cases and nothing beside; as it is where there are none.

@@ -78,7 +78,7 @@ def scene_of(folder: Path, size: tuple[int, int] = _SIZE) -> Scene:
     poses = RecordedPoses(folder)
     if not poses.count:
         raise InputError(f"{folder / 'physics.npz'}: not one tick was run")
-    goal = goal_of(told.configuration, folder)
+    goal = goal_of(told.configuration, folder, told.scale)
     camera = RayCamera(poses.model, size, Disc(*goal))
     return Scene(poses, follow(poses), camera, goal, told.behaviour, ways)
 
@@ -94,15 +94,22 @@ def _ways(folder: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return found[0], found[1]
 
 
-def goal_of(configuration: Mapping[str, Any], folder: Path) -> tuple[float, float, float]:
+def goal_of(
+    configuration: Mapping[str, Any], folder: Path, scale: float = 1.0
+) -> tuple[float, float, float]:
     """Return x, y and radius of the goal, m.
+
+    Args:
+        configuration: the run's.
+        folder: the run's, for messages.
+        scale: what the lengths in the configuration were multiplied by.
 
     Raises:
         InputError: the configuration has none.
     """
     try:
         goal = configuration["goal"]
-        x, y, radius = (float(v) for v in (*goal["position"], goal["radius"]))
+        x, y, radius = (scale * float(v) for v in (*goal["position"], goal["radius"]))
     except (KeyError, TypeError, ValueError):
         raise InputError(f"{folder}: its configuration has no goal") from None
     return x, y, radius

@@ -11,17 +11,18 @@ from treadwell._core import Surfaces
 from treadwell.course.course import Course
 from treadwell.course.height_field import FieldPiece
 from treadwell.robot.load import Robot
+from treadwell.scenario.scaling import size_of
 
 SAME_CONTACT_SECONDS = 0.5
 """Contacts of one pair that are no further apart in time are one collision."""
 RISER_IMPULSE = 1.0
-"""N·s from which on a sole's touch of a riser counts."""
+"""N·s from which on a touch of a riser counts that the sole of a robot of scale 1 makes."""
 SOLE_ON_TOP = 0.7
 """Least z of the normal (from the floor up) with which a sole stands on a walkable top."""
 LIES_ON_TOP = 0.9
 """The same for any other part: leaning on an edge is a collision, lying on a top is a fall."""
 FIELD_TOUCH = 0.003
-"""Metres from a height field's surface within which a contact lies on it."""
+"""Metres from a height field's surface within which a contact is on it, on a course of scale 1."""
 _GROUND, _NOTHING = -1, -2
 _AROUND = 0.002 * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])
 """Metres: a contact on the crease between two triangles of a height field is on either."""
@@ -37,7 +38,8 @@ class Collision:
         element: name of the course element.
         impulse: N·s, integral of the normal force.
         last: s, of the last touch.
-        riser_only: a sole on a riser; counts from `RISER_IMPULSE` on.
+        riser_only: a sole on a riser; counts where the impulse is above `least`.
+        least: N·s.
     """
 
     time: float
@@ -46,11 +48,12 @@ class Collision:
     impulse: float
     last: float
     riser_only: bool
+    least: float = RISER_IMPULSE
 
     @property
     def counts(self) -> bool:
         """Whether the contract calls it a collision."""
-        return not self.riser_only or self.impulse > RISER_IMPULSE
+        return not self.riser_only or self.impulse > self.least
 
 
 class Touch(NamedTuple):
@@ -86,6 +89,8 @@ class Contacts:
             sole_bodies: ids of the left and the right link that carry a sole.
         """
         self._model = model
+        self._least = RISER_IMPULSE * size_of(robot).impulse
+        self._field_touch = FIELD_TOUCH * course.scale
         self._scratch = mujoco.MjData(model)
         body_of = np.asarray(model.geom_bodyid)
         is_robot = np.asarray(model.body_rootid)[body_of] == model.body(robot.root).id
@@ -156,7 +161,7 @@ class Contacts:
                 continue
             x, y, z = contact.pos[index]
             around = np.array([x, y]) + _AROUND
-            on_it = np.abs(field.surface(around) - z) <= FIELD_TOUCH
+            on_it = np.abs(field.surface(around) - z) <= self._field_touch
             if on_it.any():
                 up = float(field.upward(around[on_it]).max())
                 frames[index, 2] = up if first in self._fields else -up
@@ -183,7 +188,7 @@ class Contacts:
                 self._closed.append(known)
                 known = None
             if known is None:
-                known = self._open[pair] = Collision(time, *pair, 0.0, time, riser)
+                known = self._open[pair] = Collision(time, *pair, 0.0, time, riser, self._least)
             known.impulse += float(force[0]) * interval
             known.last = time
             known.riser_only = known.riser_only and riser

@@ -10,6 +10,7 @@ from treadwell.judging.ground_truth import GroundFrame, GroundTruth
 from treadwell.judging.level_changes import LevelChanges
 from treadwell.robot.load import Robot
 from treadwell.scenario.model import Scenario
+from treadwell.scenario.scaling import size_of
 from treadwell.trace import Sole
 
 FALLEN_TILT = 0.8
@@ -18,18 +19,21 @@ UPRIGHT_SECONDS = 1.0
 """For so long nothing of a fall must be seen before another one can count."""
 STILL_SECONDS = 1.0
 STILL_DRIFT = 0.01
-"""Metres by which a sole may drift while the robot stands still."""
+"""Metres by which a sole of a robot of scale 1 may drift while the robot stands still."""
 STILL_TURN = 0.05
 """Rad by which it may turn meanwhile."""
 GOAL_HEIGHT_TOLERANCE = 0.02
-"""Metres that each sole may be off the goal's height."""
+"""Metres that each sole may be off the goal's height, on a course of scale 1."""
 STUCK_SECONDS = 30.0
+"""Of a robot of scale 1; a larger one, which takes longer for all it does, has longer."""
 STUCK_RADIUS = 0.1
-"""Metres: a robot that has not left a disc of this radius for `STUCK_SECONDS` is stuck, unless"""
+"""Metres: a robot of scale 1 that has not left a disc of this radius for `STUCK_SECONDS` is stuck,
+unless"""
 STUCK_TURN = 0.5
 """it has turned by this, rad: one that looks around is not."""
 PATH_SPACING = 0.03
-"""Metres between the points of which the path's length is made; sways smaller than it vanish."""
+"""Metres between the points of which the path's length is made; sways smaller than it vanish, of a
+robot of scale 1."""
 
 
 class Judge:
@@ -61,7 +65,12 @@ class Judge:
         self.truth = GroundTruth(model, robot)
         self._contacts = Contacts(model, course, robot, self.truth.sole_bodies)
         self._goal = scenario.goal
-        self._levels = LevelChanges(course.height_at)
+        size = size_of(robot)
+        self._drift = STILL_DRIFT * size.length
+        self._goal_rise = GOAL_HEIGHT_TOLERANCE * course.scale
+        self._spacing, self._stuck_radius = PATH_SPACING * size.length, STUCK_RADIUS * size.length
+        self._stuck_seconds = STUCK_SECONDS * size.patience
+        self._levels = LevelChanges(course.height_at, course.scale)
         self.falls = 0
         self.fall: str | None = None
         self._last_fallen = -math.inf
@@ -135,7 +144,7 @@ class Judge:
     @property
     def stuck(self) -> bool:
         """Whether the robot has not come away from its place for a long time."""
-        return self._place is not None and self._time - self._place[0] > STUCK_SECONDS
+        return self._place is not None and self._time - self._place[0] > self._stuck_seconds
 
     @property
     def distance_to_goal(self) -> float:
@@ -150,9 +159,7 @@ class Judge:
         """
         soles = self.truth.soles(data)
         height = self._goal.height
-        level = height is None or all(
-            abs(sole.z - height) <= GOAL_HEIGHT_TOLERANCE for sole in soles
-        )
+        level = height is None or all(abs(sole.z - height) <= self._goal_rise for sole in soles)
         inside = self.distance_to_goal <= self._goal.radius
         return inside and level and self.standing_still and not self.fallen
 
@@ -171,8 +178,8 @@ class Judge:
         if self._still is not None:
             _, (left, right), yaw = self._still
             if (
-                math.dist(left[:3], soles[0][:3]) <= STILL_DRIFT
-                and math.dist(right[:3], soles[1][:3]) <= STILL_DRIFT
+                math.dist(left[:3], soles[0][:3]) <= self._drift
+                and math.dist(right[:3], soles[1][:3]) <= self._drift
                 and abs(math.remainder(frame[3] - yaw, math.tau)) <= STILL_TURN
             ):
                 return
@@ -180,19 +187,19 @@ class Judge:
 
     def _watch_progress(self, time: float, frame: GroundFrame) -> None:
         here = frame[:2]
-        if self._place is None or _has_moved(self._place[1], frame):
+        if self._place is None or _has_moved(self._place[1], frame, self._stuck_radius):
             self._place = (time, frame)
         if self._path_point is None:
             self._path_point = here
         else:
             step = math.dist(here, self._path_point)
-            if step >= PATH_SPACING:
+            if step >= self._spacing:
                 self.path_length += step
                 self._path_point = here
 
 
-def _has_moved(before: GroundFrame, now: GroundFrame) -> bool:
+def _has_moved(before: GroundFrame, now: GroundFrame, radius: float) -> bool:
     """Say whether the robot has come away from its place, or turned to look around."""
-    if math.dist(before[:2], now[:2]) > STUCK_RADIUS:
+    if math.dist(before[:2], now[:2]) > radius:
         return True
     return abs(math.remainder(now[3] - before[3], math.tau)) > STUCK_TURN

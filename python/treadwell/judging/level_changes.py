@@ -11,7 +11,7 @@ Footprint = tuple[float, float, float]
 """World x, y, z of a sole's centre, m."""
 
 LEAST_CHANGE = 0.015
-"""Metres between two levels that count as two."""
+"""Metres between two levels that count as two, on a course of scale 1."""
 LOOKS_A_FOOTPRINT = 5
 """Looks in a row at which a sole must touch to have taken its place."""
 _SPACING = 0.005
@@ -28,13 +28,16 @@ class FootTrack:
         other: the other foot's track, None for a foot alone.
     """
 
-    def __init__(self, height_at: Callable[[Floats], Floats]) -> None:
+    def __init__(self, height_at: Callable[[Floats], Floats], scale: float = 1.0) -> None:
         """Begin with no footprint.
 
         Args:
             height_at: height of the highest surface at points (n, 2), m.
+            scale: the course's.
         """
         self._height_at = height_at
+        self._least, self._clear = LEAST_CHANGE * scale, _CLEAR_OF_ENDS * scale
+        self._spacing = _SPACING * scale
         self._prints: list[Footprint] = []
         self._last = (0, 0)  # rises and falls of the last step
         self._looks = 0
@@ -64,8 +67,8 @@ class FootTrack:
         level = self._prints[0][2]
         for height in [*self._between(*self._prints), end[2]]:
             # Slopes change the level bit by bit: only a sudden change is a step.
-            rises += height - level >= LEAST_CHANGE
-            falls += level - height >= LEAST_CHANGE
+            rises += height - level >= self._least
+            falls += level - height >= self._least
             level = height
         self.rises += rises
         self.falls += falls
@@ -77,7 +80,7 @@ class FootTrack:
             return False
         before, last = self._prints
         back = math.dist(end[:2], before[:2]) < math.dist(end[:2], last[:2])
-        level = abs(end[2] - before[2]) < LEAST_CHANGE
+        level = abs(end[2] - before[2]) < self._least
         rises, falls = self.rises - self._last[0], self.falls - self._last[1]
         alone = rises >= self.other.rises and falls >= self.other.falls
         return back and level and alone
@@ -85,9 +88,9 @@ class FootTrack:
     def _between(self, begin: Footprint, end: Footprint) -> list[float]:
         """Return the heights that the foot has swung over, away from its two footprints."""
         length = math.dist(begin[:2], end[:2])
-        if length <= 2 * _CLEAR_OF_ENDS:
+        if length <= 2 * self._clear:
             return []
-        at = np.arange(_CLEAR_OF_ENDS, length - _CLEAR_OF_ENDS, _SPACING)[:, None] / length
+        at = np.arange(self._clear, length - self._clear, self._spacing)[:, None] / length
         first, last = np.array(begin[:2]), np.array(end[:2])
         heights: list[float] = self._height_at(first + at * (last - first)).tolist()
         return heights
@@ -96,13 +99,14 @@ class FootTrack:
 class LevelChanges:
     """Both feet's tracks: a change of level counts when both feet have made or passed it."""
 
-    def __init__(self, height_at: Callable[[Floats], Floats]) -> None:
+    def __init__(self, height_at: Callable[[Floats], Floats], scale: float = 1.0) -> None:
         """Begin with no footprint.
 
         Args:
             height_at: height of the highest surface at points (n, 2), m.
+            scale: the course's.
         """
-        self.feet = (FootTrack(height_at), FootTrack(height_at))
+        self.feet = (FootTrack(height_at, scale), FootTrack(height_at, scale))
         self.feet[0].other, self.feet[1].other = self.feet[1], self.feet[0]
 
     @property

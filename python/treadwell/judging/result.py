@@ -173,6 +173,9 @@ class Result(Shown, Table):
     of before."""
     configuration: dict[str, Any]
     """The whole scenario as it was run: overrides and draws applied."""
+    scale: Annotated[FiniteFloat, Field(gt=0.0, exclude_if=lambda scale: bool(scale == 1.0))] = 1.0
+    """What the lengths of course, start, goal and events in the configuration were multiplied by,
+    with `scale_to_robot`; left out where that is 1."""
     ablation: bool = False
     """Whether anything in the core was given the truth."""
     outcome: Outcome

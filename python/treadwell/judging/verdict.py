@@ -8,7 +8,7 @@ from treadwell.judging.judge import Judge
 from treadwell.judging.result import Outcome
 
 STANDING_SECONDS = 5.0
-"""Seconds after a declaration within which the robot has to stand still."""
+"""Seconds after a declaration within which a robot of scale 1 has to stand still."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,9 +27,16 @@ class Verdict:
 class Referee:
     """Ends an episode. The robot declares arrival and refusal itself; it is never told."""
 
-    def __init__(self, judge: Judge, time_limit: float) -> None:
-        """Take the judge to ask and the time limit, simulated seconds."""
+    def __init__(self, judge: Judge, time_limit: float, patience: float = 1.0) -> None:
+        """Begin.
+
+        Args:
+            judge: the one to ask.
+            time_limit: simulated seconds.
+            patience: how much longer than a robot of scale 1 this one may take to come to a stand.
+        """
         self._judge = judge
+        self._standing_seconds = STANDING_SECONDS * patience
         self._time_limit = time_limit
         self._declared: tuple[str, str | None, float] | None = None
 
@@ -62,7 +69,7 @@ class Referee:
     ) -> Verdict | None:
         judge = self._judge
         if not judge.standing_still:
-            if time_s - since < STANDING_SECONDS:
+            if time_s - since < self._standing_seconds:
                 return None
             return Verdict("stuck", "unsteady: the robot declared an end and did not stand still")
         if outcome == "refused":

@@ -13,6 +13,7 @@ from treadwell.errors import SimulationError
 from treadwell.physics.audit import DATA_FIELDS, Audit, steps_per_tick
 from treadwell.protocols import JointTargets
 from treadwell.robot.load import Robot
+from treadwell.robot.standing import ROOT, standing_root
 
 TICK_NS = 10_000_000
 """The control tick, nanoseconds."""
@@ -157,27 +158,11 @@ class Simulation:
 
     def standing_qpos(self, start: Start) -> NDArray[np.float64]:
         """Return (nq,): all positions as they are, but the robot standing as in its keyframe."""
-        nominal, robot = self.robot.nominal, self.robot
-        data = mujoco.MjData(nominal)
-        data.qpos[:] = robot.stand_qpos
-        mujoco.mj_kinematics(nominal, data)
-        centres, forward = np.zeros(3), np.zeros(3)
-        for leg in (robot.file.legs.left, robot.file.legs.right):
-            link = nominal.body(leg.sole.link).id
-            rotation = data.xmat[link].reshape(3, 3)
-            centres += 0.5 * (data.xpos[link] + rotation @ np.array(leg.sole.position))
-            forward += rotation[:, 0]
-        turn = start.yaw - np.arctan2(forward[1], forward[0])
-        quat, rotation, root = np.empty(4), np.empty(9), robot.stand_qpos
-        mujoco.mju_axisAngle2Quat(quat, np.array([0.0, 0.0, 1.0]), turn)
-        mujoco.mju_quat2Mat(rotation, quat)
+        robot = self.robot
         qpos: NDArray[np.float64] = self.data.qpos.copy()
         base = int(self.model.joint(robot.base).qposadr[0])
-        qpos[base : base + 3] = rotation.reshape(3, 3) @ (root[:3] - centres)
-        qpos[base : base + 3] += (start.x, start.y, start.height)
-        turned = np.empty(4)
-        mujoco.mju_mulQuat(turned, quat, root[3:7])
-        qpos[base + 3 : base + 7] = turned
+        place = (start.x, start.y, start.height)
+        qpos[base : base + ROOT] = standing_root(robot, place, start.yaw)
         qpos[self._positions] = robot.stand
         return qpos
 

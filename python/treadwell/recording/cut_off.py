@@ -4,6 +4,7 @@ Such a run has no `result.json`. Its trajectories and states are in its log, whi
 last third of a second; its map comes of a replay.
 """
 
+import math
 import os
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -13,13 +14,15 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell.careful_json import json_of
 from treadwell.errors import InputError
 from treadwell.judging.result import StateEntry
 from treadwell.physics.audit import TICK_SECONDS
 from treadwell.physics.parts import PARTS, QPOS, part_rows
-from treadwell.recording.log_file import BrokenLogError, read_messages
+from treadwell.recording.log_file import BrokenLogError, read_front, read_messages
 from treadwell.recording.messages import Belief, decode_estimate, decode_truth
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
+from treadwell.recording.observation_log import ROBOT
 from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory, read_trajectory
 from treadwell.scenario.loading import read_toml
@@ -34,6 +37,7 @@ class CutRun:
     Attributes:
         seconds: simulated time until which it was recorded; None where nothing says it.
         configuration: the scenario as it was run; empty where it cannot be read.
+        scale: what the lengths in it were multiplied by, with `scale_to_robot`.
         behaviour: the states, each with the time at which it began.
         estimate: (n, 8) the believed trajectory, as `read_trajectory` has it.
         truth: (n, 8) the true one.
@@ -44,6 +48,7 @@ class CutRun:
     behaviour: list[StateEntry] = field(default_factory=list)
     estimate: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 8)))
     truth: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 8)))
+    scale: float = 1.0
 
     def sentence(self) -> str:
         """Return what is told of it in one line."""
@@ -74,7 +79,8 @@ def cut_run(folder: Path) -> CutRun | None:
         told.read(log)
     seconds = told.seconds if told.seconds is not None else _audited_seconds(folder)
     ways = (told.estimate.rows, told.truth.rows)
-    return CutRun(seconds, configuration, told.behaviour, *ways)
+    scale = _scale(log) if configuration.get("scale_to_robot") is True else 1.0
+    return CutRun(seconds, configuration, told.behaviour, *ways, scale)
 
 
 def ways(folder: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -87,6 +93,16 @@ def ways(folder: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     if cut is not None:
         return cut.estimate, cut.truth
     return read_trajectory(folder / ESTIMATE), read_trajectory(folder / TRUTH)
+
+
+def _scale(log: Path) -> float:
+    """Return the robot's scale, as the log's description of it has it; 1 where nothing says it."""
+    try:
+        robot = json_of(read_front(log).attachments[ROBOT], f"{log}: {ROBOT}: is broken")
+        scale = float(robot["scale"])
+    except (InputError, KeyError, TypeError, ValueError):
+        return 1.0
+    return scale if math.isfinite(scale) and scale > 0.0 else 1.0
 
 
 def _audited_seconds(folder: Path) -> float | None:

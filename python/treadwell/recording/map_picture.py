@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -25,6 +25,9 @@ from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.stair_outlines import draw_stairs
 from treadwell.recording.step_memory import StepMemory
 from treadwell.recording.trajectory import Trajectory, jumps
+from treadwell.scenario.model import Goal
+from treadwell.scenario.scaling import multiplied
+from treadwell.scenario.types import Scale
 
 _UNKNOWN: Final = (0.80, 0.80, 0.82)
 _OBSTACLE: Final = (0.09, 0.09, 0.11)
@@ -43,7 +46,7 @@ class Caption:
 
     Attributes:
         title: what was run and what came of it, two lines.
-        goal: the scenario's table.
+        goal: the scenario's table, in the lengths in which it is written.
     """
 
     title: str
@@ -93,6 +96,8 @@ def draw_map(
     Raises:
         OSError: the file cannot be written.
     """
+    goal = multiplied(Goal.model_validate(dict(caption.goal)), Scale(course.scale))
+    caption = replace(caption, goal=goal.model_dump())
     west, east, south, north = _bounds(course, caption, remembered, truth)
     width, height = east - west, north - south
     scale = 9.0 / max(width, height / 0.7)

@@ -1,5 +1,6 @@
 """A replay: the core over a run's observations, compared with what it answered then."""
 
+import json
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -136,7 +137,7 @@ def _loop(
 ) -> None:
     """Hand every observation to the core, and compare its answers with the recorded ones."""
     answers, joints, pilot = _answers(source.path), source.joints, core.pilot
-    goals = [*source.scenario.goal.via, source.scenario.goal.position]
+    goals = [goal["position"] for goal in json.loads(source.core.settings)["goals"]]
     try:
         for observation in read_observations(source.path):
             interruption.check()

@@ -83,11 +83,14 @@ def _course(row: EpisodeRow) -> tuple[list[Floats], Floats | None, Floats | None
     from treadwell.course.build import build_course
     from treadwell.robot.load import load_robot
     from treadwell.scenario.loading import load_scenario
+    from treadwell.scenario.scaling import to_robot
 
     try:
         seed = int(row.seed)
         made = load_scenario(row.source, robot=row.robot_given, seed=seed, overrides=row.settings)
-        course = build_course(made, load_robot(made.robot))
+        robot = load_robot(made.robot)
+        made = to_robot(made, robot)
+        course = build_course(made, robot)
     except (TreadwellError, ValueError):
         return [], None, None
     outlines = [

@@ -64,6 +64,12 @@ class RunData:
         return {} if told is None else told.configuration
 
     @property
+    def scale(self) -> float:
+        """What the lengths in the configuration were multiplied by."""
+        told = self.result or self.cut
+        return 1.0 if told is None else told.scale
+
+    @property
     def behaviour(self) -> Sequence[StateEntry]:
         """The states, each with the time at which it began."""
         told = self.result or self.cut

@@ -249,7 +249,7 @@ def _distance(run: RunData) -> Line | None:
     if not len(run.truth):
         return None
     try:
-        x, y = (float(value) for value in run.configuration["goal"]["position"])
+        x, y = (run.scale * float(value) for value in run.configuration["goal"]["position"])
     except (KeyError, TypeError, ValueError):
         return None
     with np.errstate(over="ignore"):

@@ -121,6 +121,11 @@ class Robot:
         return scale_of(self._stance, self.file)
 
     @cached_property
+    def mass(self) -> float:
+        """All of it, kg."""
+        return float(self.nominal.body_subtreemass[1])
+
+    @cached_property
     def _stance(self) -> Stance:
         return Stance.of(self.nominal, self.stand_qpos)
 

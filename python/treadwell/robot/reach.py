@@ -1,4 +1,4 @@
-"""What the legs of a robot can do: where the gait's closed form reaches, and what joints bear."""
+"""What the legs of a robot can do: where their inverse kinematics reaches, and what joints bear."""
 
 import json
 import math
@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell._core import Legs
+from treadwell.robot.file import LegTable
+from treadwell.robot.joint_roles import KNEE, roles
 from treadwell.robot.load import Robot
 from treadwell.robot.step_blocks import TREAD_M, Steps, add_steps
 
@@ -21,9 +23,10 @@ MOST_TORQUE = 0.9
 """Of the peak: the rest is for balance."""
 HIGHEST_M, RISE_STEP_M = 0.12, 0.005
 FARTHEST_M, REACH_STEP_M = 0.4, 0.005
+"""What is tried, and how finely, of a robot as large as `qrio`."""
 MOST_TURN_RAD, TURN_STEP_RAD = 1.5, 0.05
 LOWERING_M = 0.002
-"""Steps in which the hips are lowered until both soles are reached."""
+"""Steps in which the hips of such a robot are lowered until both soles are reached."""
 LOWEST_SHARE = 0.4
 """The hips are lowered to this share of their height at most."""
 
@@ -61,16 +64,17 @@ class Reach:
 
     Attributes:
         gait: `[gait]` with its defaults.
-        legs: the closed form of both legs.
+        legs: the inverse kinematics of both legs.
     """
 
     def __init__(self, robot: Robot) -> None:
-        """Build the closed form.
+        """Read the legs.
 
         Raises:
-            InputError: the legs do not have the axes that it needs, or the gait a bad setting.
+            InputError: the legs are no chains that end at the soles, or the gait a bad setting.
         """
         self._robot = robot
+        self._scale = robot.scale
         self.legs = Legs(json.dumps(robot.description()))
         self.gait: dict[str, float] = json.loads(self.legs.gait_json)
         spec = robot.spec()
@@ -87,8 +91,8 @@ class Reach:
         half = 0.5 * self._width_m
         return _greatest(
             lambda x: self._level([(x / 2, half, 0.0), (-x / 2, -half, 0.0)]),
-            FARTHEST_M,
-            REACH_STEP_M,
+            FARTHEST_M * self._scale,
+            REACH_STEP_M * self._scale,
         )
 
     def widest_step_m(self) -> float:
@@ -98,7 +102,7 @@ class Reach:
             half = 0.5 * (self._width_m + extra)
             return self._level([(0.0, half, 0.0), (0.0, -half, 0.0)])
 
-        return _greatest(reached, FARTHEST_M, REACH_STEP_M)
+        return _greatest(reached, FARTHEST_M * self._scale, REACH_STEP_M * self._scale)
 
     def largest_turn_rad(self) -> float:
         """Return by how much one foot may be turned outwards against the other, rad."""
@@ -112,7 +116,7 @@ class Reach:
         """Return steps up (1) or down (-1), ever higher, to the first that is not possible."""
         found = []
         for number in range(1, round(HIGHEST_M / RISE_STEP_M) + 1):
-            found.append(self.rise(direction * number * RISE_STEP_M))
+            found.append(self.rise(direction * number * RISE_STEP_M * self._scale))
             if not found[-1].possible:
                 break
         return found
@@ -124,7 +128,7 @@ class Reach:
         it until the left foot stands.
         """
         half = 0.5 * self._width_m
-        soles = [(TREAD_M, half, height_m), (0.0, -half, 0.0)]
+        soles = [(TREAD_M * self._scale, half, height_m), (0.0, -half, 0.0)]
         carries = 0 if height_m > 0.0 else 1
         over = self._over(soles, carries)
         # Who walks has not come all the way when the foot behind lifts off, and has set out for the
@@ -149,9 +153,20 @@ class Reach:
             hips - soles[carries][2],
             shares[joint][0],
             joint,
-            shares[leg.joints[3]][1],
+            shares[self._knee(leg)][1],
             touches,
         )
+
+    def _knee(self, leg: LegTable) -> str:
+        """Return the name of a leg's knee."""
+        data = mujoco.MjData(self._robot.nominal)
+        data.qpos[:] = self._robot.stand_qpos
+        mujoco.mj_kinematics(self._robot.nominal, data)
+        link = self._robot.nominal.body(leg.sole.link).id
+        sole = data.xpos[link] + data.xmat[link].reshape(3, 3) @ np.array(leg.sole.position)
+        joints = [self._robot.nominal.joint(name).id for name in leg.joints]
+        done = roles(data, joints, sole, data.xmat[1].reshape(3, 3)[:, 0])
+        return leg.joints[done.index(KNEE)]
 
     def _over(self, soles: list[tuple[float, float, float]], carries: int) -> Floats:
         """Return where the weight is when one foot carries it all, (x, y)."""
@@ -183,8 +198,9 @@ class Reach:
     ) -> float | None:
         """Return the greatest height of the hips at which both soles are reached, or None."""
         full = self.gait["hip_height"]
-        for number in range(int((1.0 - LOWEST_SHARE) * full / LOWERING_M)):
-            hips = ground_m + full - number * LOWERING_M
+        lowering = LOWERING_M * self._scale
+        for number in range(int((1.0 - LOWEST_SHARE) * full / lowering)):
+            hips = ground_m + full - number * lowering
             if self._pose(soles, over, hips):
                 return hips
         return None

@@ -18,6 +18,7 @@ from treadwell.robot.model_file import compile_alone, find_model
 from treadwell.robot.reach import Reach, Rise
 from treadwell.robot.reading import required_keys
 from treadwell.robot.soles import Sole
+from treadwell.robot.step_blocks import TREAD_M
 
 SCHEMA = "treadwell.robot/1"
 SOLE_APART_M = 0.006
@@ -232,7 +233,12 @@ def _gait(robot: Robot) -> dict[str, Any]:
     gait = reach.gait
     hip, thigh, shank, ankle = reach.legs.lengths("left")
     up, down = reach.rises(1.0), reach.rises(-1.0)
+    by, open_turn = reach.legs.solved_by("left")
     return {
+        "tread": TREAD_M * robot.scale,
+        "scale": robot.scale,
+        "solved_by": "closed form" if by is None else "Newton's method",
+        "left_open": open_turn,
         "thigh": thigh,
         "shank": shank,
         "ankle_height": ankle,

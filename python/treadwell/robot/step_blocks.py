@@ -6,9 +6,9 @@ import numpy as np
 from treadwell.robot.load import Robot
 
 TREAD_M = 0.12
-"""Depth of the steps that are tried: one foot is as far ahead of the other."""
+"""Depth of the steps that a robot as large as `qrio` tries: one foot is as far ahead."""
 GAP_M = 0.015
-"""How far toes are from the riser ahead, and going down heels from the one behind."""
+"""How far its toes are from the riser ahead, and going down its heels from the one behind."""
 HALF_M = 0.5
 """Half of a block's size: larger than a step, since only its edge counts."""
 NAMES = ("lower step", "upper step")
@@ -32,6 +32,7 @@ class Steps:
         self._model = model
         self._blocks = [model.geom(name).id for name in names]
         self._mocaps = [int(model.body_mocapid[model.geom_bodyid[block]]) for block in self._blocks]
+        self._tread_m, self._gap_m = TREAD_M * robot.scale, GAP_M * robot.scale
         self._half_sole_m = 0.5 * robot.file.legs.left.sole.length
         feet = [
             model.body(leg.sole.link).id for leg in (robot.file.legs.left, robot.file.legs.right)
@@ -47,10 +48,10 @@ class Steps:
         Up, there are the step and the next one; down, there is the one that is left.
         """
         if height_m > 0.0:
-            edge = self._half_sole_m + GAP_M
-            places = [(edge, height_m), (edge + TREAD_M, 2.0 * height_m)]
+            edge = self._half_sole_m + self._gap_m
+            places = [(edge, height_m), (edge + self._tread_m, 2.0 * height_m)]
         else:
-            edge = TREAD_M - self._half_sole_m - GAP_M
+            edge = self._tread_m - self._half_sole_m - self._gap_m
             places = [(edge - 2.0 * HALF_M, 0.0), (edge - 2.0 * HALF_M, -1.0)]
         for mocap, (x, top) in zip(self._mocaps, places, strict=True):
             data.mocap_pos[mocap] = (x + HALF_M, 0.0, top - HALF_M)

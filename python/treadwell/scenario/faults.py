@@ -37,11 +37,13 @@ class FaultKind:
         keys: that it must have.
         value: least and largest `value`, None where it has none.
         optional: keys that it may have.
+        is_force: whether its `value` is a force, which is greater for a heavier robot.
     """
 
     keys: tuple[str, ...] = ()
     value: tuple[float, float] | None = None
     optional: tuple[str, ...] = ()
+    is_force: bool = False
 
 
 FAULTS: Final[dict[str, dict[str, FaultKind]]] = {
@@ -59,7 +61,7 @@ FAULTS: Final[dict[str, dict[str, FaultKind]]] = {
     },
     "encoders": {"stick": FaultKind(("joint",))},
     "feet": {
-        "stick": FaultKind(("foot", "cell", "value"), (0.0, 10000.0)),
+        "stick": FaultKind(("foot", "cell", "value"), (0.0, 10000.0), is_force=True),
         "dead": FaultKind(("foot",)),
     },
     "motors": {"weak": FaultKind(("value",), (0.0, 1.0), ("joint",))},

@@ -101,6 +101,8 @@ def describe(error: ErrorDetails, raw: Mapping[str, Any]) -> str:
     text = text[:1].lower() + text[1:]
     if kind in {"model_type", "model_attributes_type", "dict_type"}:
         text = "must be a table"
+    elif kind == "bool_type":
+        text = "must be true or false"
     found = value_at(raw, path)
     if kind == "literal_error":
         text += nearest(

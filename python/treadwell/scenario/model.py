@@ -24,6 +24,7 @@ from treadwell.scenario.types import (
     Length,
     Name,
     Point2,
+    Scale,
     Seconds,
     Table,
 )
@@ -179,6 +180,9 @@ class Scenario(Table):
     """What all that is random is drawn from: one seed, one result on one kind of processor."""
     time_limit: Annotated[Seconds, Field(ge=0.001)] = 120.0
     """The episode ends after this, simulated seconds."""
+    scale_to_robot: bool = False
+    """Whether the lengths of course, start, goal and events are `qrio`'s, to be multiplied by the
+    robot's scale: its leg length over `qrio`'s. Times, speeds and pushes follow."""
     start: Start
     """Where the robot starts."""
     goal: Goal
@@ -197,6 +201,8 @@ class Scenario(Table):
     """What makes a run pass."""
 
     _path: Path | None = PrivateAttr(default=None)
+    _written: "Scenario | None" = PrivateAttr(default=None)
+    _scale: Scale = PrivateAttr(default=Scale())
 
     @model_validator(mode="after")
     def _names_are_unique(self) -> Self:
@@ -226,6 +232,20 @@ class Scenario(Table):
         """The folder in which the files that it names lie."""
         return Path.cwd() if self._path is None else self._path.parent
 
+    @property
+    def scale(self) -> Scale:
+        """By what all but the course was multiplied, to which `scale_to_robot` had it fitted."""
+        return self._scale
+
+    @property
+    def written(self) -> "Scenario":
+        """The scenario before anything of it was multiplied; itself where nothing was."""
+        return self if self._written is None else self._written
+
     def configuration(self) -> dict[str, Any]:
-        """Return everything as it is run, as plain data: what `result.json` holds."""
-        return self.model_dump(mode="json", by_alias=True)
+        """Return everything as it is run, as plain data: what `result.json` holds.
+
+        Of a scenario that was fitted to a robot in the lengths in which it was written: with
+        `scale_to_robot` they mean the same when they are read again.
+        """
+        return self.written.model_dump(mode="json", by_alias=True)

@@ -1,6 +1,8 @@
 """The number, name and table types that the models of a scenario file are made of."""
 
+import math
 import sys
+from dataclasses import dataclass
 from typing import Annotated, Any, Final
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, field_validator
@@ -10,6 +12,34 @@ LARGEST_M: Final = 100.0
 """Nothing in a scenario is farther away or longer than this, in metres."""
 SMALLEST_M: Final = 0.001
 """Nothing in a scenario is thinner than this, in metres: MuJoCo makes no sense of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """By what a scenario in `qrio`'s lengths is multiplied for a robot of another size.
+
+    Attributes:
+        length: what lengths are multiplied by.
+        mass: what masses and forces are.
+    """
+
+    length: float = 1.0
+    mass: float = 1.0
+
+    @property
+    def time(self) -> float:
+        """What times are multiplied by, and speeds: of a walk twice as long, the root of two."""
+        return math.sqrt(self.length)
+
+    @property
+    def patience(self) -> float:
+        """What limits of time are multiplied by: as times are, but never less than 1."""
+        return max(1.0, self.time)
+
+    @property
+    def impulse(self) -> float:
+        """What impulses are multiplied by: as mass times speed."""
+        return self.mass * self.time
 
 
 class PlainNumbers(BaseModel):

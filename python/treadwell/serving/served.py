@@ -19,6 +19,7 @@ from treadwell.robot.load import Robot, load_robot
 from treadwell.scenario.messages import describe, report, shown
 from treadwell.scenario.model import SCHEMA, Scenario
 from treadwell.scenario.overrides import assign, parse_setting, split_key
+from treadwell.scenario.scaling import to_robot
 from treadwell.serving.framing import Message, ProtocolError
 from treadwell.serving.protocol import (
     HELLO,
@@ -161,6 +162,7 @@ class ServedRobot:
         raise InputError(report(where, list(dict.fromkeys(lines))))
 
     def _build(self, scenario: Scenario, static_map: Octree | None) -> GuardedCore:
+        scenario = to_robot(scenario, self.robot)
         if scenario.navigation.localizer == "truth":
             raise InputError(
                 f"{scenario.name}: navigation.localizer: found 'truth', which reads the simulator, "

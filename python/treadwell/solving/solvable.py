@@ -7,16 +7,19 @@ none. Truth-side only: the core never asks.
 
 from collections import defaultdict, deque
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
-from treadwell.course.course import LEVEL_TOLERANCE, Course
+from treadwell.course.course import LEVEL_TOLERANCE, Course, Place
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import Top
 from treadwell.robot.load import Robot
 from treadwell.scenario.events import Kidnap
-from treadwell.scenario.model import Scenario
+from treadwell.scenario.model import Goal, Scenario
+from treadwell.scenario.scaling import multiplied, to_robot
+from treadwell.scenario.types import Scale
 from treadwell.solving.climb_line import PROBE, ClimbLine, Node
 from treadwell.solving.robot_limits import Limits, limits_of
 from treadwell.solving.true_ground import Mask, TrueGround, edges_of
@@ -43,16 +46,20 @@ def is_solvable(scenario: Scenario, course: Course, robot: Robot) -> bool | None
     """
     if any(isinstance(event, Kidnap) for event in scenario.event):
         return None
-    limits = limits_of(scenario, robot)
-    stops = [scenario.start.position, *scenario.goal.via, scenario.goal.position]
+    scenario = to_robot(scenario, robot)
+    limits, start, goal = limits_of(scenario, robot), course.start, scenario.goal
+    if robot.scale != 1.0:
+        # The search's own lengths are those of a robot of scale 1.
+        course, limits, start, goal = _shrunk(course, limits, goal, 1.0 / robot.scale)
+    stops = [start.position, *goal.via, goal.position]
     ground = TrueGround(
         course, stops, radius=limits.radius, tall=limits.tall, steepest=limits.steepest
     )
     stand = ground.standing(limits.pair / 2, limits.floor_max)
-    reached = _reached(ground, stand, limits, _start(ground, stand, scenario, course))
-    heights = [None] * len(scenario.goal.via) + [scenario.goal.height]
+    reached = _reached(ground, stand, limits, _start(ground, stand, start))
+    heights = [None] * len(goal.via) + [goal.height]
     found = all(
-        _holds(ground, reached, stop, scenario.goal.radius, height)
+        _holds(ground, reached, stop, goal.radius, height)
         for stop, height in zip(stops[1:], heights, strict=True)
     )
     return None if not found and _asks_for_single_feet(course, limits) else found
@@ -72,16 +79,26 @@ def _carries_one_foot(top: Top, limits: Limits) -> bool:
     return limits.sole <= longest < 2 * limits.half_width
 
 
-def _start(ground: TrueGround, stand: Mask, scenario: Scenario, course: Course) -> set[Node]:
+def _shrunk(
+    course: Course, limits: Limits, goal: Goal, factor: float
+) -> tuple[Course, Limits, Place, Goal]:
+    """Return course, limits, start and goal with all lengths multiplied."""
+    elements = tuple(element.multiplied(factor) for element in course.elements)
+    start = course.start.multiplied(factor)
+    smaller = replace(course, elements=elements, start=start, _by_name={})
+    return smaller, limits.multiplied(factor), start, multiplied(goal, Scale(factor))
+
+
+def _start(ground: TrueGround, stand: Mask, start: Place) -> set[Node]:
     """Return where the robot begins: where it stands, or what is free within a step of it."""
-    x, y = scenario.start.position
+    x, y = start.position
     row, column = ground.index(x, y)
     reach = 3
     found: list[tuple[int, Node]] = []
     for r in range(row - reach, row + reach + 1):
         for c in range(column - reach, column + reach + 1):
             for surface in np.flatnonzero(stand[:, r, c]):
-                if abs(ground.height[surface, r, c] - course.start.height) <= LEVEL_TOLERANCE:
+                if abs(ground.height[surface, r, c] - start.height) <= LEVEL_TOLERANCE:
                     away = (r - row) ** 2 + (c - column) ** 2
                     found.append((away, (int(surface), r, c)))
     nearest = min((away for away, _ in found), default=0)

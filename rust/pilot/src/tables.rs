@@ -56,7 +56,7 @@ pub fn sized(given: &Tables, scale: &Scale) -> Tables {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use serde_json::{Value, json};
+    use serde_json::json;
 
     #[test]
     fn every_unit_is_known_and_at_the_size_of_the_defaults_nothing_changes() {

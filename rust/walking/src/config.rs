@@ -8,7 +8,7 @@ settings! {
     /// How this robot walks: `[gait]` of its robot.toml.
     pub struct GaitConfig("gait") {
         /// Time from one landing to the next.
-        step_time: f64 = 0.6, "s", above_to(0.0, 60.0);
+        step_time: f64 = 0.5, "s", above_to(0.0, 60.0);
         /// Part of the step time in which both feet carry.
         double_support: f64 = 0.15, "s", above_to(0.0, 60.0);
         /// Time to shift the weight onto the first foot, and at the end back to the middle.
@@ -20,7 +20,7 @@ settings! {
         /// Longest step backward.
         max_backward: f64 = 0.05, "m", above_to(0.0, 10.0);
         /// Largest extra distance between the feet in a side step.
-        max_sideways: f64 = 0.06, "m", above_to(0.0, 10.0);
+        max_sideways: f64 = 0.10, "m", above_to(0.0, 10.0);
         /// Largest turn of one step.
         max_turn: f64 = 0.3, "rad", between(0.0, 1.0);
         /// Distance between the centres of the soles when they are side by side; where it is not given, that of the upright stance.
@@ -34,7 +34,7 @@ settings! {
         /// The hips are lowered so that a thigh stretches back no further than this; without it, as far as a straight leg asks.
         hip_stretch: Option<f64> = None, "rad", between(0.0, 1.5);
         /// Where the foot carries: this far from the sole's middle towards the other foot.
-        support_inward: f64 = 0.0, "m", within(-1.0, 1.0);
+        support_inward: f64 = 0.005, "m", within(-1.0, 1.0);
         /// Where along the sole it carries, forward of the sole's middle, as far as that lies in the middle half of what bears; without
         /// it, in the middle of what bears.
         support_ahead: Option<f64> = None, "m", within(-1.0, 1.0);

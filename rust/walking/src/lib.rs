@@ -38,6 +38,7 @@ mod posture;
 mod preview;
 pub mod relief;
 mod shared_hip;
+mod sole_fit;
 pub mod stance;
 pub mod step_list;
 mod stumble;

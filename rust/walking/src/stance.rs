@@ -1,6 +1,6 @@
 //! The upright stance of a body, from its description, and the gait that goes with it.
 
-use geometry::PlanarPose;
+use geometry::{GRAVITY_MPS2, PlanarPose};
 use nalgebra::Vector3;
 use robot::{Body, LinkPoses, Side};
 use serde::Deserialize;
@@ -77,6 +77,7 @@ impl GaitConfig {
         if table.get("hip_height").is_none() {
             config.hip_height = stance.hip_height_m;
         }
+        config.fit_soles(body, table, (GRAVITY_MPS2 / stance.com.z).sqrt());
         config.check()?;
         Ok((config, stance))
     }

@@ -121,7 +121,7 @@ class DrawnRooms:
             x, y = self._free_place()
             yaw = float(self._numbers.uniform(-np.pi, np.pi))
             data.qpos[:] = self._course.qpos
-            data.qpos[root : root + 2] = x, y
+            data.qpos[root : root + 3] = x, y, self._robot.stand_qpos[2]
             data.qpos[root + 3 : root + 7] = [np.cos(yaw / 2), 0.0, 0.0, np.sin(yaw / 2)]
             mujoco.mj_forward(model, data)
             observed = self._sensors.observe(data, number * _FRAME_NS)

@@ -29,8 +29,8 @@ pub(crate) const FEET: Feet = Feet {
 /// Where the robot's eyes are.
 fn eyes() -> robot::Head {
     robot::Head {
-        pan: "pan".to_owned(),
-        tilt: "tilt".to_owned(),
+        pan: Some("pan".to_owned()),
+        tilt: Some("tilt".to_owned()),
         eye_height: 0.45,
         eye_ahead: 0.04,
     }

@@ -1,6 +1,6 @@
 //! Settings of the behaviour `walking`.
 
-use settings::{Bounds, NOT_NEGATIVE, POSITIVE, from_below, settings, within};
+use settings::{Bounds, NOT_NEGATIVE, POSITIVE, above_to, from_below, settings, within};
 
 use super::tuning::{WAIT, WalkingTuning};
 use crate::machine::Limits;
