@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from treadwell.robot.anatomy import Anatomy, FoundLeg, posed_at
 from treadwell.robot.draft_motors import draft_motors, gait_of, motor_roles, peaks_of, size_of
 from treadwell.robot.keyframes import STAND, arms_of_keyframes, stands_well
+from treadwell.robot.loops import ties_of
 from treadwell.robot.motors_found import Fitting
 from treadwell.robot.stance import Stance
 from treadwell.robot.surfaces import cloud_of
@@ -104,7 +105,7 @@ class Draft:
             self._imu(upper.torso),
             SENSES,
             self._camera(head, leg_m),
-            draft_motors(self.anatomy, self.legs, fitting, head.pan is None or head.tilt is None),
+            draft_motors(self.anatomy, self.legs, upper.trunk, fitting, not head.turns),
             self._gait(fitting, leg_m),
         ]
         return "".join(parts)
@@ -146,7 +147,10 @@ class Draft:
     def _stand_table(self, stand: dict[str, float]) -> str:
         if stands_well(self.anatomy.model, self.legs):
             return ""
-        lines = "".join(f"{key(name)} = {angle:.7g}\n" for name, angle in stand.items())
+        tied = {self.anatomy.model.joint(joint).name for joint in ties_of(self.anatomy.model)}
+        lines = "".join(
+            f"{key(name)} = {angle:.7g}\n" for name, angle in stand.items() if name not in tied
+        )
         return (
             "\n[stand]                         # knees bent, soles level under the centre of mass; "
             f"the others: the model's keyframe {STAND!r}, or 0\n{lines}"
@@ -199,7 +203,7 @@ class Draft:
 
     def _head(self, head: FoundHead) -> str:
         pan, tilt, how = head.pan, head.tilt, head.how
-        if pan is None or tilt is None:
+        if not head.turns:
             pan, tilt = "camera_pan", "camera_tilt"
             how += "; it does not both pan and tilt: see [camera.mount]"
         return (
@@ -209,7 +213,7 @@ class Draft:
     def _camera(self, head: FoundHead, leg_m: float) -> str:
         model, data = self.anatomy.model, self.anatomy.data
         baseline = min(BASELINE_M * leg_m / REFERENCE_LEG_M, MOST_BASELINE_M)
-        turns = head.pan is None or head.tilt is None
+        turns = not head.turns
         if head.camera is not None and not turns:
             return CAMERA.format(name=toml(head.camera), mount="", baseline=baseline)
         x, y, z = (float(value) + 0.0 for value in np.round(head.lens, 3))
