@@ -2,9 +2,12 @@
 
 import mujoco
 import pytest
+from biped_builders import BOX_FOOT, PITCH_FIRST, SIX, biped, leg
 
-from treadwell.robot.anatomy import Anatomy
+from treadwell.robot.anatomy import Anatomy, nearest_to_zero
 from treadwell.robot.load import Robot, load_robot, robot_names
+
+BOTH = leg("left", SIX, BOX_FOOT) + leg("right", SIX, BOX_FOOT)
 
 
 @pytest.fixture(scope="module", params=robot_names())
@@ -46,3 +49,40 @@ def test_a_joint_with_another_place_axis_or_range_is_named() -> None:
         legs = robot.file.legs
         found = Anatomy.of(model).differences(legs.left.joints, legs.right.joints)
         assert any(word in line and "right_" in line for line in found), found
+
+
+def test_a_joint_whose_range_does_not_hold_zero_is_at_its_nearest_end() -> None:
+    model = mujoco.MjModel.from_xml_string(biped(SIX).replace("-0.05 2.3", "0.2 2.3"))
+    qpos = nearest_to_zero(model)
+    assert qpos[model.joint("left_3_knee").qposadr[0]] == 0.2
+    assert qpos[model.joint("left_0_yaw").qposadr[0]] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("joints", "roles"),
+    [
+        (SIX, ["hip yaw", "hip roll", "hip pitch", "knee", "ankle pitch", "ankle roll"]),
+        (PITCH_FIRST, ["hip pitch", "hip roll", "hip yaw", "knee", "ankle pitch", "ankle roll"]),
+        (
+            ("roll", "yaw", "pitch", "knee", "roll", "pitch"),
+            ["hip roll", "hip yaw", "hip pitch", "knee", "ankle roll", "ankle pitch"],
+        ),
+        (SIX[:5], ["hip yaw", "hip roll", "hip pitch", "knee", "ankle pitch"]),
+        (("roll", "pitch", "knee", "pitch", "roll"), ["hip roll", "hip pitch", "knee", "ankle "]),
+        ((*SIX, "yaw"), ["hip yaw", "hip roll", "hip pitch", "knee", "ankle pitch", "ankle roll"]),
+    ],
+)
+def test_joints_are_known_by_what_they_do(joints: tuple[str, ...], roles: list[str]) -> None:
+    legs = Anatomy.of(mujoco.MjModel.from_xml_string(biped(joints))).legs()
+    for side in ("left", "right"):
+        found = legs[side]
+        assert [name.split("_")[1] for name in found.joints] == [str(n) for n in range(len(joints))]
+        for role, wanted in zip(found.roles, roles, strict=False):
+            assert role.startswith(wanted)
+
+
+def test_joints_of_what_both_legs_hang_on_are_no_legs() -> None:
+    waist = '<body name="waist"><joint name="waist" axis="0 0 1" range="-1 1"/>'
+    waist += f'<geom size="0.02"/>{BOTH}</body>'
+    legs = Anatomy.of(mujoco.MjModel.from_xml_string(biped(SIX, legs=waist))).legs()
+    assert len(legs["left"].joints) == 6

@@ -24,7 +24,7 @@ def check(folder: Path, *, walk: bool, template: bool, as_json: bool) -> int:
     if template:
         from treadwell.robot.template import write_template
 
-        write_message(f"wrote {write_template(folder)}: read it through, it is a guess")
+        write_message(f"wrote {write_template(folder)}: read it through, guesses are said as such")
     document = report_on(folder)
     if document["fits"]:
         from treadwell.robot_trial import refused

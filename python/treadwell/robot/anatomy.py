@@ -201,8 +201,9 @@ def place_of(data: mujoco.MjData, body: int, sole: Sole) -> Floats:
 def nearest_to_zero(model: mujoco.MjModel) -> Floats:
     """Return (nq,) all joints at zero, or at the end of their range that is nearest to it."""
     qpos = np.array(model.qpos0)
+    kinds = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
     for joint in range(model.njnt):
-        if model.jnt_type[joint] in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
+        if int(model.jnt_type[joint]) in kinds:
             low, high = model.jnt_range[joint] if model.jnt_limited[joint] else (0.0, 0.0)
             qpos[model.jnt_qposadr[joint]] = min(max(0.0, low), high)
     return qpos

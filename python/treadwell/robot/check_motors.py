@@ -94,8 +94,11 @@ class _Motors(Lookup):
     def _check_carrying(self, moved: set[str]) -> None:
         """Refuse a joint that carries the robot, or turns its camera, and that nothing moves."""
         file = self.file
-        needed = {f"legs.{side}.joints": leg.joints for side, leg in legs_of(file)}
-        needed |= {"head.pan": (file.head.pan,), "head.tilt": (file.head.tilt,)}
+        needed: dict[str, tuple[str | None, ...]] = {
+            "head.pan": (file.head.pan,),
+            "head.tilt": (file.head.tilt,),
+        }
+        needed |= {f"legs.{side}.joints": leg.joints for side, leg in legs_of(file)}
         for key, joints in needed.items():
             for joint in joints:
                 if joint in self.joints and joint not in moved:

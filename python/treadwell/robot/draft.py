@@ -8,9 +8,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.robot.anatomy import Anatomy, FoundLeg, place_of, posed_at
-from treadwell.robot.draft_motors import draft_motors, peaks_of, size_of
+from treadwell.robot.anatomy import Anatomy, FoundLeg, posed_at
+from treadwell.robot.draft_motors import draft_motors, gait_of, motor_roles, peaks_of, size_of
 from treadwell.robot.keyframes import STAND, arms_of_keyframes, stands_well
+from treadwell.robot.loops import ties_of
 from treadwell.robot.motors_found import Fitting
 from treadwell.robot.stance import Stance
 from treadwell.robot.surfaces import cloud_of
@@ -29,8 +30,6 @@ OTHER_RANGE = (-1.5, 1.5)
 REFERENCE_LEG_M = 0.25
 BASELINE_M, MOST_BASELINE_M = 0.06, 0.2
 """Between the lenses of a stereo camera: by the robot's size, up to a limit."""
-FOOT_SIDE_SHARE = 0.9
-"""Of the distance from the middle to the soles' outer edges."""
 CLEAR_M = 0.02
 """How much wider than the robot the cylinder is that holds it."""
 ANGLE_ROUNDED = 5
@@ -102,12 +101,12 @@ class Draft:
             self._ranges(),
             *(self._leg(leg) for leg in self.legs.values()),
             self._trunk(upper),
-            self._head(head, stand),
+            self._head(head),
             self._imu(upper.torso),
             SENSES,
             self._camera(head, leg_m),
-            draft_motors(self.anatomy, self.legs, fitting, head.pan is None or head.tilt is None),
-            self._gait(leg_m),
+            draft_motors(self.anatomy, self.legs, upper.trunk, fitting, not head.turns),
+            self._gait(fitting, leg_m),
         ]
         return "".join(parts)
 
@@ -130,14 +129,10 @@ class Draft:
         reach = cloud.radii[:, None]
         least, most = (cloud.centres - reach).min(axis=0), (cloud.centres + reach).max(axis=0)
         radius = float(np.max(np.abs([least[:2], most[:2]]))) + CLEAR_M
-        outer = max(
-            abs(float(place_of(data, model.body(leg.foot).id, leg.sole)[1])) + 0.5 * leg.sole.width
-            for leg in self.legs.values()
-        )
         return (
             "\n[body]                          # the size of the shape in the stance\n"
             f"torso = {toml(model.body(upper.torso).name)}\nradius = {radius:.2f}\n"
-            f"height = {float(most[2] - least[2]):.2f}\nfoot_side = {FOOT_SIDE_SHARE * outer:.3f}\n"
+            f"height = {float(most[2] - least[2]):.2f}\n"
         )
 
     def _qpos(self, stand: dict[str, float]) -> NDArray[np.float64]:
@@ -152,7 +147,10 @@ class Draft:
     def _stand_table(self, stand: dict[str, float]) -> str:
         if stands_well(self.anatomy.model, self.legs):
             return ""
-        lines = "".join(f"{key(name)} = {angle:g}\n" for name, angle in stand.items())
+        tied = {self.anatomy.model.joint(joint).name for joint in ties_of(self.anatomy.model)}
+        lines = "".join(
+            f"{key(name)} = {angle:.7g}\n" for name, angle in stand.items() if name not in tied
+        )
         return (
             "\n[stand]                         # knees bent, soles level under the centre of mass; "
             f"the others: the model's keyframe {STAND!r}, or 0\n{lines}"
@@ -203,26 +201,19 @@ class Draft:
         joints = ", ".join(toml(joint) for joint in upper.trunk)
         return f"\n[trunk]\njoints = [{joints}]\n" if joints else ""
 
-    def _head(self, head: FoundHead, stand: dict[str, float]) -> str:
-        model = self.anatomy.model
-        data = posed_at(model, self._qpos(stand))
-        lens = data.xpos[head.link] + data.xmat[head.link].reshape(3, 3) @ head.lens
-        soles = [place_of(data, model.body(leg.foot).id, leg.sole) for leg in self.legs.values()]
-        ground, middle = np.mean(soles, axis=0)[2], np.mean(soles, axis=0)[0]
+    def _head(self, head: FoundHead) -> str:
         pan, tilt, how = head.pan, head.tilt, head.how
-        if pan is None or tilt is None:
+        if not head.turns:
             pan, tilt = "camera_pan", "camera_tilt"
             how += "; it does not both pan and tilt: see [camera.mount]"
         return (
             f"\n[head]                          # {how}\npan = {toml(pan)}\ntilt = {toml(tilt)}\n"
-            f"eye_height = {float(lens[2] - ground):.3f}\n"
-            f"eye_ahead = {float(lens[0] - middle):.3f}\n"
         )
 
     def _camera(self, head: FoundHead, leg_m: float) -> str:
         model, data = self.anatomy.model, self.anatomy.data
         baseline = min(BASELINE_M * leg_m / REFERENCE_LEG_M, MOST_BASELINE_M)
-        turns = head.pan is None or head.tilt is None
+        turns = not head.turns
         if head.camera is not None and not turns:
             return CAMERA.format(name=toml(head.camera), mount="", baseline=baseline)
         x, y, z = (float(value) + 0.0 for value in np.round(head.lens, 3))
@@ -270,8 +261,17 @@ class Draft:
             "accelerometer_noise = 0.15\naccelerometer_bias = 0.05\n"
         )
 
-    def _gait(self, leg_m: float) -> str:
-        return f"\n[gait]                          # the defaults are for legs of {leg_m:.2f} m\n"
+    def _gait(self, fitting: Fitting, leg_m: float) -> str:
+        model = self.anatomy.model
+        motors = {role: joint for joint, role in motor_roles(model, self.legs).items()}
+        settings = gait_of(
+            fitting,
+            motors,
+            float(model.body_subtreemass[0]),
+            leg_m / REFERENCE_LEG_M,
+        )
+        lines = "".join(f"{name} = {value:.2g}\n" for name, value in settings.items())
+        return f"\n[gait]                          # what does not follow from the size\n{lines}"
 
 
 def toml(text: str) -> str:

@@ -1,15 +1,26 @@
 """`[motors]` of a drafted `robot.toml`: groups of joints whose motors are drafted alike."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import mujoco
+import numpy as np
 
 from treadwell.robot.anatomy import Anatomy, FoundLeg, place_of
+from treadwell.robot.joint_roles import ANKLE_PITCH, HIP_PITCH, KNEE
 from treadwell.robot.loops import drivers, ties_of
-from treadwell.robot.motors_found import ARM_SHARE, Fitting, Servo
+from treadwell.robot.motors_found import ARM_SHARE, REFERENCE_MASS_KG, Fitting, Servo
 
+REFERENCE_ANKLE = 80.0
+"""Stiffness of the ankles for which the gait's `ankle_gain` is, N m/rad."""
+REFERENCE_SPEED = 8.0
+"""No-load speed of the legs for which its climbing speeds are, rad/s."""
+ANKLE_GAIN, CLIMB_SPEED, CLIMB_LIFT_SPEED = 30.0, 0.195, 0.172
+"""The gait's defaults for a scale of 1."""
+SLOW = 0.9
+"""Motors that are no slower than this share of that climb as the defaults do."""
+TRUNK = "trunk"
 CAMERA_MOTORS = """[motors.camera]                 # of the unit that turns the camera
 joints = ["camera_pan", "camera_tilt"]
 peak_torque = 2.0
@@ -20,24 +31,58 @@ kv = 0.4
 
 
 def size_of(anatomy: Anatomy, legs: Mapping[str, FoundLeg]) -> float:
-    """Return how high the hips are over the soles at angles zero, m."""
-    heights = []
+    """Return how high the hips' centres are over the soles at angles zero, m.
+
+    A hip's centre is where the axes above the knee come nearest to each other.
+    """
+    model, data, heights = anatomy.model, anatomy.data, []
     for leg in legs.values():
-        hip = anatomy.data.xanchor[anatomy.model.joint(leg.joints[0]).id]
-        sole = place_of(anatomy.data, anatomy.model.body(leg.foot).id, leg.sole)
+        above = [model.joint(name).id for name in leg.joints[: leg.roles.index(KNEE)]]
+        anchors, axes = data.xanchor[above], data.xaxis[above]
+        across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
+        # Axes that are parallel leave a direction open: there it is at the mean of the anchors.
+        weak = 1e-9 * np.eye(3)
+        right = np.einsum("nij,nj->i", across, anchors) + weak @ anchors.mean(axis=0)
+        hip = np.linalg.solve(across.sum(axis=0) + weak, right)
+        sole = place_of(data, model.body(leg.foot).id, leg.sole)
         heights.append(float(hip[2] - sole[2]))
     return sum(heights) / len(heights)
 
 
-def motor_roles(model: mujoco.MjModel, legs: Mapping[str, FoundLeg]) -> dict[int, str]:
-    """Return what the motors of the legs do, by the joint that has the motor."""
+def motor_roles(
+    model: mujoco.MjModel, legs: Mapping[str, FoundLeg], trunk: Sequence[str] = ()
+) -> dict[int, str]:
+    """Return what the motors that carry the robot do, by the joint that has the motor.
+
+    Args:
+        model: the compiled model.
+        legs: both.
+        trunk: joints between pelvis and torso: `TRUNK`; so are those that a tendon couples to them.
+    """
     tied = ties_of(model)
-    roles = {}
+    names = {name: TRUNK for name in trunk}
     for leg in legs.values():
-        for name, role in zip(leg.joints, leg.roles, strict=True):
-            joint = int(model.joint(name).id)
-            roles[tied[joint].leader if joint in tied else joint] = role
+        names |= dict(zip(leg.joints, leg.roles, strict=True))
+    roles = {}
+    for name, role in names.items():
+        joint = int(model.joint(name).id)
+        roles[tied[joint].leader if joint in tied else joint] = role
+        for coupled in _coupled(model, joint):
+            roles.setdefault(coupled, role)
     return roles
+
+
+def _coupled(model: mujoco.MjModel, joint: int) -> set[int]:
+    """Return the joints that share a tendon with a joint."""
+    found: set[int] = set()
+    for tendon in range(model.ntendon):
+        first = int(model.tendon_adr[tendon])
+        wraps = range(first, first + int(model.tendon_num[tendon]))
+        kind = mujoco.mjtWrap.mjWRAP_JOINT
+        joints = {int(model.wrap_objid[w]) for w in wraps if model.wrap_type[w] == kind}
+        if joint in joints:
+            found |= joints - {joint}
+    return found
 
 
 def peaks_of(
@@ -54,34 +99,76 @@ def peaks_of(
     return peaks
 
 
+def gait_of(
+    fitting: Fitting, motors: Mapping[str, int], mass_kg: float, scale: float
+) -> dict[str, float]:
+    """Return settings of the gait that follow from the servos, and not from the size alone.
+
+    How fast an ankle yields to where the ground presses: by how far that moves for an angle. How
+    fast feet are put on steps: no faster than the legs' motors turn.
+
+    Args:
+        fitting: drafts one motor.
+        motors: the joints with the motors of a leg, by what they do.
+        mass_kg: of the robot.
+        scale: of the robot.
+    """
+    ankle = fitting.servo(motors[ANKLE_PITCH], ANKLE_PITCH, 1.0)
+    stiffer = ankle.kp / REFERENCE_ANKLE / (mass_kg / REFERENCE_MASS_KG)
+    found = {"ankle_gain": ANKLE_GAIN / stiffer / scale**0.5}
+    slowest = min(fitting.servo(motors[role], role, 1.0).speed for role in (HIP_PITCH, KNEE))
+    slower = slowest * scale**0.5 / REFERENCE_SPEED
+    if slower < SLOW:
+        found["climb_speed"] = CLIMB_SPEED * slower * scale**0.5
+        found["climb_lift_speed"] = CLIMB_LIFT_SPEED * slower * scale**0.5
+    return found
+
+
+def moved_by(model: mujoco.MjModel, joint: int) -> float:
+    """Return what a joint has to move while all others are free to give way, kg m²."""
+    return 1.0 / max(float(model.dof_invweight0[model.jnt_dofadr[joint]]), 1e-9)
+
+
 def draft_motors(
-    anatomy: Anatomy, legs: Mapping[str, FoundLeg], fitting: Fitting, camera: bool
+    anatomy: Anatomy,
+    legs: Mapping[str, FoundLeg],
+    trunk: Sequence[str],
+    fitting: Fitting,
+    camera: bool,
 ) -> str:
     """Return the tables of all motors.
 
     Args:
         anatomy: of the model.
         legs: both.
+        trunk: joints between pelvis and torso.
         fitting: drafts one motor.
         camera: whether the camera gets a unit of its own that turns it.
     """
     model = anatomy.model
-    roles, tied = motor_roles(model, legs), ties_of(model)
-    groups: dict[tuple[bool, Servo], list[str]] = {}
+    roles, tied = motor_roles(model, legs, trunk), ties_of(model)
+    groups: dict[tuple[str, Servo], list[str]] = {}
     for joint in sorted(drivers(model)):
-        moved = float(model.dof_M0[model.jnt_dofadr[joint]])
+        moved = moved_by(model, joint)
         for follower, tie in tied.items():
             if tie.leader == joint:
-                moved += tie.ratio**2 * float(model.dof_M0[model.jnt_dofadr[follower]])
+                moved += tie.ratio**2 * moved_by(model, follower)
         servo = fitting.servo(joint, roles.get(joint), moved)
         rounded = _rounded(servo)
-        groups.setdefault((joint in roles, rounded), []).append(model.joint(joint).name)
+        groups.setdefault((_part(roles.get(joint)), rounded), []).append(model.joint(joint).name)
     text = _heading(fitting, model)
-    counts = {True: 0, False: 0}
-    for (leg, servo), names in groups.items():
-        counts[leg] += 1
-        text += _group(f"{'leg' if leg else 'other'}{counts[leg]}", names, servo)
+    counts: dict[str, int] = {}
+    for (part, servo), names in groups.items():
+        counts[part] = counts.get(part, 0) + 1
+        text += _group(f"{part}{counts[part]}", names, servo)
     return text + (CAMERA_MOTORS if camera else "")
+
+
+def _part(role: str | None) -> str:
+    """Return the word by which a group of motors begins."""
+    if role is None:
+        return "other"
+    return TRUNK if role == TRUNK else "leg"
 
 
 def _rounded(servo: Servo) -> Servo:

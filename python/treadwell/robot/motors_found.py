@@ -12,12 +12,14 @@ ARM_SHARE = 0.25
 """What motors that are not a leg's have of that, where the model says nothing."""
 REFERENCE_MASS_KG, REFERENCE_LEG_M = 7.0, 0.25
 """Of the robot for which the stiffnesses below are: others by mass times length."""
-STIFF = 150.0
+STIFF = 120.0
 """N m/rad, of its legs' servos."""
 DAMPED = 0.02
 """Damping of a servo over its stiffness, s, at that size; longer by the root of the length."""
 SOFT, STIFFEST = 0.8, 3.0
-"""A servo of the model counts where it has between these shares of the rule's stiffness."""
+"""A leg's servo of the model counts where it has between these shares of the rule's stiffness."""
+SOFT_ARM = 0.2
+"""For the others the least share is this: they carry nothing."""
 GIVES_RAD = 0.15
 """By how much other servos give way to their peak torque."""
 SPEED = 8.0
@@ -25,7 +27,7 @@ SPEED = 8.0
 STALL = 1.4
 """Torque at which the torque-speed line starts, over the peak, where nothing tells it."""
 STEP_S = 0.002
-MOST_DAMPING = 0.5
+MOST_DAMPING = 0.8
 """Of what a servo's damping could take from a free joint's speed in a physics step."""
 LOSING = 0.1
 """A joint's damping above this share of its torque stands for the speed that the motor loses."""
@@ -35,8 +37,8 @@ OWN_DAMPING = 0.02
 """What is left of such a damping for the gear, over the torque, s/rad."""
 STIFFEST_RAD = 0.03
 """No servo of a leg gives its peak torque for less than this."""
-STEADY = 2.0
-"""Stiffness times a physics step squared, over what a joint moves, is below this over four."""
+STEADY = 0.4
+"""Stiffness times a physics step squared, over what a joint moves, is no more than this."""
 SAME_FOR_ALL = 3.0
 """A control range that is alike on all joints, and so many times what the legs need, is a bound."""
 
@@ -169,7 +171,7 @@ class Fitting:
         Args:
             joint: its number.
             role: what it, or the joint that it turns by a gear, does in a leg.
-            moved: what it moves where nothing else gives way, kg m².
+            moved: what it has to move while all other joints give way, kg m².
         """
         model, found = self._model, find_motor(self._model, joint)
         torque, told = self.torque(joint, role)
@@ -178,12 +180,13 @@ class Fitting:
         if role is not None:
             kp = min(STIFF * self._stiffer, torque / STIFFEST_RAD)
         kv = kp * DAMPED * self._scale**0.5
-        if found.stiffness is not None and SOFT * kp <= found.stiffness <= STIFFEST * kp:
+        least_share = SOFT_ARM if role is None else SOFT
+        if found.stiffness is not None and least_share * kp <= found.stiffness <= STIFFEST * kp:
             kp, said = found.stiffness, [*said, "kp"]
             kv = max(found.stiffness_damping, 0.5 * kv)
         dof = int(model.jnt_dofadr[joint])
         armature = None
-        least = 4.0 * kp * STEP_S**2 / STEADY
+        least = kp * STEP_S**2 / STEADY
         if moved < least:
             armature = float(f"{float(model.dof_armature[dof]) + least - moved:.2g}")
         kv = min(kv, MOST_DAMPING * max(moved, least) / STEP_S)

@@ -17,6 +17,7 @@ KNEE_RADS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
 EASY_SHARE = 0.5
 """Of the peak torque, on one leg."""
 ROUNDED = 5
+LEAST_RAD = 1e-5
 ROUNDS, STEPS = 6, 30
 SLOPE_RAD = 1e-4
 DAMPED = 1e-8
@@ -42,7 +43,7 @@ class Stance:
         self.missed: dict[str, float] = {}
 
     def angles(self, peaks: Mapping[str, float], others: Mapping[str, float]) -> dict[str, float]:
-        """Return the angles of all joints that are not at zero, rad.
+        """Return the angles of all joints that are not as near to zero as they can be, rad.
 
         Args:
             peaks: peak torques of the legs' joints, N m.
@@ -60,8 +61,13 @@ class Stance:
         assert chosen is not None
         model, found = self._model, {}
         for joint in range(1, model.njnt):
-            angle = round(float(chosen[model.jnt_qposadr[joint]]), ROUNDED) + 0.0
-            if angle:
+            at = int(model.jnt_qposadr[joint])
+            # What is not said is at zero, or at the end of its range that is nearest to it.
+            if abs(float(chosen[at] - self._zero[at])) > LEAST_RAD:
+                angle = round(float(chosen[at]), ROUNDED)
+                if model.jnt_limited[joint]:
+                    low, high = (float(bound) for bound in model.jnt_range[joint])
+                    angle = min(max(angle, low), high)
                 found[model.joint(joint).name] = angle
         return found
 

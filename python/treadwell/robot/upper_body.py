@@ -45,6 +45,11 @@ class FoundHead:
     tilt: str | None
     how: str
 
+    @property
+    def turns(self) -> bool:
+        """Whether it both pans and tilts."""
+        return self.pan is not None and self.tilt is not None
+
 
 class UpperBody:
     """What is above the legs of a model."""
