@@ -21,6 +21,7 @@ pub mod footsteps;
 pub mod gait;
 mod gaze;
 mod landing;
+mod lean;
 pub mod leg;
 mod leg_geometry;
 mod listed;
@@ -42,6 +43,7 @@ pub mod task;
 #[cfg(test)]
 mod test_biped;
 mod tipping;
+mod trunk;
 mod tuning;
 mod walker;
 

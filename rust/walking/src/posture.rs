@@ -10,11 +10,12 @@ use crate::config::GaitConfig;
 use crate::error::WalkError;
 use crate::gait::Gait;
 use crate::leg::{LegAngles, LegSolver};
-use crate::pelvis::{Course, Pelvis, TrunkPlace};
+use crate::pelvis::{Course, Pelvis};
 use crate::phase::{FootPose, GaitPhase};
 use crate::shared_hip::SharedHip;
 use crate::support::Pressure;
 use crate::targets::JointTargets;
+use crate::trunk::Trunk;
 use crate::tuning::PostureTuning;
 
 /// What a posture is for.
@@ -57,7 +58,7 @@ impl Posture {
             shared_hip: SharedHip::read(body, &legs, &tuning.shared_hip)?,
             legs,
             mass_kg: body.mass_kg(),
-            pelvis: Pelvis::new(config),
+            pelvis: Pelvis::new(config, 0.5 * body.description().legs.left.sole.length),
             swing_tilt: config.swing_tilt,
             tuning: tuning.posture.clone(),
             yaw_rad: 0.0,
@@ -80,20 +81,19 @@ impl Posture {
         let turn = geometry::angle_between(self.yaw_rad, goal);
         let share = (self.tuning.turn_rate * passed_s).min(1.0);
         self.yaw_rad = geometry::wrap_angle(self.yaw_rad + turn * share);
-        let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_rad);
         body.pose_links(&targets.positions_rad, &mut self.poses)?;
         let about = body.center_of_mass_in_torso(&self.poses);
-        let offset = rotation * about.coords;
-        let course = &moment.course;
-        let over = course.com - offset.xy();
-        let trunk = TrunkPlace {
-            from_com: -offset.xy(),
-            forward: (rotation * Vector3::x()).xy(),
-            hips: [0, 1].map(|index| rotation * self.legs[index].hip()),
+        let trunk = Trunk {
+            heading: UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_rad),
+            com: about.coords,
+            hips: [0, 1].map(|index| *self.legs[index].hip()),
         };
-        let height = self
+        let course = &moment.course;
+        let (height, lean_rad) = self
             .pelvis
-            .height_m(course, &self.legs, &trunk, feet, passed_s);
+            .place(course, &self.legs, &trunk, feet, passed_s);
+        let rotation = trunk.rotation(lean_rad);
+        let over = course.com - (rotation * about.coords).xy();
         let place = Translation3::new(over.x, over.y, height);
         let plan_from_torso = Isometry3::from_parts(place, rotation);
         let torso_from_plan = plan_from_torso.inverse();
