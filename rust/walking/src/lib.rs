@@ -20,6 +20,7 @@ mod felt_gait;
 pub mod footsteps;
 pub mod gait;
 mod gaze;
+mod heel;
 mod landing;
 mod lean;
 pub mod leg;

@@ -9,6 +9,7 @@ use crate::balance::Balance;
 use crate::config::GaitConfig;
 use crate::error::WalkError;
 use crate::gait::Gait;
+use crate::heel::Heel;
 use crate::leg::{LegAngles, LegSolver};
 use crate::pelvis::{Course, Pelvis};
 use crate::phase::{FootPose, GaitPhase};
@@ -40,6 +41,7 @@ pub(crate) struct Posture {
     shared_hip: Option<SharedHip>,
     mass_kg: f64,
     pelvis: Pelvis,
+    heel: Heel,
     swing_tilt: f64,
     tuning: PostureTuning,
     yaw_rad: f64,
@@ -52,13 +54,15 @@ impl Posture {
     /// For this body and gait; fails where a leg does not fit the inverse kinematics.
     pub(crate) fn new(body: &Body, config: &GaitConfig) -> Result<Self, WalkError> {
         let tuning = &config.tuning;
+        let half_sole_m = 0.5 * body.description().legs.left.sole.length;
         let leg = |side| LegSolver::new(body, side, config.max_extension, &tuning.leg);
         let legs = [leg(Side::Left)?, leg(Side::Right)?];
         Ok(Self {
             shared_hip: SharedHip::read(body, &legs, &tuning.shared_hip)?,
             legs,
             mass_kg: body.mass_kg(),
-            pelvis: Pelvis::new(config, 0.5 * body.description().legs.left.sole.length),
+            pelvis: Pelvis::new(config, half_sole_m),
+            heel: Heel::new(config, half_sole_m),
             swing_tilt: config.swing_tilt,
             tuning: tuning.posture.clone(),
             yaw_rad: 0.0,
@@ -97,11 +101,17 @@ impl Posture {
         let place = Translation3::new(over.x, over.y, height);
         let plan_from_torso = Isometry3::from_parts(place, rotation);
         let torso_from_plan = plan_from_torso.inverse();
-        let soles = Side::BOTH.map(|side| {
+        let mut soles = Side::BOTH.map(|side| {
             let lean = self.lean(moment, &plan_from_torso, side);
             let sole = feet[side.index()].plan_from_sole();
             torso_from_plan * lean * sole * moment.ankles.level_from_sole(side)
         });
+        if let Some(side) = Heel::behind(course.gait, &self.legs) {
+            let (leg, sole) = (&self.legs[side.index()], &mut soles[side.index()]);
+            let front_m = feet[side.index()].bearing.to_m;
+            let joints = &targets.positions_rad;
+            *sole = self.heel.lifted(body, leg, side, sole, front_m, joints)?;
+        }
         let solutions = self.solve(&soles, &about);
         self.short_m = [0, 1].map(|index| solutions[index].short_m);
         for (leg, solution) in self.legs.iter().zip(&solutions) {

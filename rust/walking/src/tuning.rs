@@ -20,6 +20,8 @@ settings! {
         pelvis: PelvisTuning;
         /// How the torso leans forward on high steps.
         lean: LeanTuning;
+        /// How a heel lifts.
+        heel: HeelTuning;
         /// Where a sole carries, and when feet stand side by side.
         stance: StanceTuning;
         /// How far the steps are looked ahead.
@@ -124,6 +126,18 @@ settings! {
         upright: f64 = 1e-4, "rad", above_to(0.0, 1.0);
         /// How often the range in which the lean is sought is halved.
         halvings: usize = 7, "1", within(1.0, 60.0);
+    }
+}
+
+settings! {
+    /// How the heel of a foot lifts that is left behind on the upper of two levels: its ankle bends no further.
+    pub struct HeelTuning("gait.tuning.heel") {
+        /// How often the angle is sought that the ankle asks for.
+        times: usize = 5, "1", within(0.0, 60.0);
+        /// A smaller angle is not worth another time.
+        least: f64 = 5e-4, "rad", above_to(0.0, 1.0);
+        /// The heel lifts by no more than this.
+        most: f64 = 0.6, "rad", within(0.0, 1.5);
     }
 }
 
