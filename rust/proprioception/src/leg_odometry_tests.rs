@@ -1,3 +1,5 @@
+//! Levels that leg odometry measures.
+
 use super::*;
 
 #[test]

@@ -71,7 +71,7 @@ impl Heel {
             }
             // Secant method, the first time with the slope of a foot that turns about its ankle.
             let slope = before.map_or(1.0, |(before_rad, before_left_rad): (f64, f64)| {
-                ((before_left_rad - left_rad) / (lifted_rad - before_rad)).clamp(0.2, 1.0)
+                ((before_left_rad - left_rad) / (lifted_rad - before_rad)).clamp(0.5, 1.0)
             });
             before = Some((lifted_rad, left_rad));
             lifted_rad = (lifted_rad + left_rad / slope).min(self.tuning.most);

@@ -117,7 +117,7 @@ impl Lean {
         let ahead_m = across.dot(&place.forward);
         let up_m = height_m + hip.z - upper.foot.z_m - leg.ankle_height_m();
         let (thigh_m, shank_m) = leg.lengths_m();
-        let away_m = geometry::hypot(across.norm(), up_m).max(1e-6);
+        let away_m = geometry::hypot(across.norm(), up_m).max(f64::MIN_POSITIVE);
         let cos =
             (shank_m * shank_m + away_m * away_m - thigh_m * thigh_m) / (2.0 * shank_m * away_m);
         let shank_rad = libm::acos(cos.clamp(-1.0, 1.0)) + libm::atan2(ahead_m, up_m);
