@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import cast
 
 import numpy as np
@@ -11,12 +11,14 @@ from climbing import (
     Climber,
     Errors,
     Footstep,
+    Sizes,
     Tread,
     alternating,
     course,
     level_steps,
     pairs,
     seen,
+    sizes_of,
 )
 
 STARTS_S = 0.5
@@ -43,6 +45,23 @@ class Plan:
     pushes: list[tuple[float, tuple[float, float]]] = field(default_factory=list)
     climber: Climber | None = None
 
+    def at(self, sizes: Sizes) -> "Plan":
+        """Return the same at a robot's size: times and speeds by its pace; impulses as told."""
+        pace = sizes.pace
+
+        def sized(motion: Motion) -> Motion:
+            if isinstance(motion, tuple):
+                x, y, turn = motion
+                return (x * pace, y * pace, turn / pace)
+            return motion
+
+        return replace(
+            self,
+            motions=[(at * pace, sized(motion)) for at, motion in self.motions],
+            end_s=self.end_s * pace,
+            pushes=[(at * pace, impulse) for at, impulse in self.pushes],
+        )
+
 
 @dataclass(frozen=True)
 class Job:
@@ -62,6 +81,11 @@ class Job:
     slope: float
     told: bool = False
     head_kg: float = 0.0
+
+    @property
+    def sizes(self) -> Sizes:
+        """What goes by the robot's size."""
+        return sizes_of(self.robot)
 
 
 def straight(_rng: np.random.Generator, _job: Job) -> Plan:
@@ -100,14 +124,14 @@ def stop(rng: np.random.Generator, _job: Job) -> Plan:
     return Plan([(STARTS_S, walk), (until, None)], until + 4.0)
 
 
-def listed(rng: np.random.Generator, _job: Job) -> Plan:
-    return Plan([(STARTS_S, level_steps(rng))], STARTS_S + 1.3 * LISTED + 2.0)
+def listed(rng: np.random.Generator, job: Job) -> Plan:
+    return Plan([(STARTS_S, level_steps(rng, job.sizes))], STARTS_S + 1.3 * LISTED + 2.0)
 
 
-def listed_stop(rng: np.random.Generator, _job: Job) -> Plan:
+def listed_stop(rng: np.random.Generator, job: Job) -> Plan:
     """Take a list and stop at any phase of a step."""
     until = rng.uniform(1.0, 7.0)
-    return Plan([(STARTS_S, level_steps(rng)), (until, None)], until + 4.0)
+    return Plan([(STARTS_S, level_steps(rng, job.sizes)), (until, None)], until + 4.0)
 
 
 def push(rng: np.random.Generator, job: Job, direction: float) -> Plan:
@@ -162,7 +186,7 @@ def wander(rng: np.random.Generator, job: Job) -> Plan:
 
 
 def stair(_rng: np.random.Generator, job: Job, sign: float) -> list[Tread]:
-    return course([sign * job.rise] * job.steps, [job.tread] * (job.steps - 1))
+    return course([sign * job.rise] * job.steps, [job.tread] * (job.steps - 1), job.sizes)
 
 
 def climb_up(rng: np.random.Generator, job: Job) -> list[Tread]:
@@ -173,19 +197,22 @@ def climb_down(rng: np.random.Generator, job: Job) -> list[Tread]:
     return stair(rng, job, -1.0)
 
 
-def sill(_rng: np.random.Generator, _job: Job) -> list[Tread]:
-    return course([0.038, -0.038], [0.09])
+def sill(_rng: np.random.Generator, job: Job) -> list[Tread]:
+    scale = job.sizes.scale
+    return course([0.038 * scale, -0.038 * scale], [0.09 * scale], job.sizes)
 
 
-def basin(_rng: np.random.Generator, _job: Job) -> list[Tread]:
-    return course([-0.03, 0.03], [0.13])
+def basin(_rng: np.random.Generator, job: Job) -> list[Tread]:
+    scale = job.sizes.scale
+    return course([-0.03 * scale, 0.03 * scale], [0.13 * scale], job.sizes)
 
 
 def random_stairs(rng: np.random.Generator, job: Job) -> list[Tread]:
     """Up or down, whichever the seed says."""
     sign = rng.choice([-1.0, 1.0])
-    rises = sign * rng.uniform(0.02, 0.05, job.steps)
-    return course(list(rises), list(rng.uniform(0.11, 0.2, job.steps - 1)))
+    scale = job.sizes.scale
+    rises = sign * scale * rng.uniform(0.02, 0.05, job.steps)
+    return course(list(rises), list(scale * rng.uniform(0.11, 0.2, job.steps - 1)), job.sizes)
 
 
 COURSES: dict[str, Callable[[np.random.Generator, Job], list[Tread]]] = {
@@ -202,14 +229,16 @@ COURSES: dict[str, Callable[[np.random.Generator, Job], list[Tread]]] = {
 def climb(rng: np.random.Generator, job: Job, treads: list[Tread]) -> Plan:
     """Climb the course, and stand for a second."""
     believed = seen(treads, job.errors, rng)
-    lists = (alternating if job.task.startswith("continuous") else pairs)(believed)
+    in_turn = job.task.startswith("continuous")
+    lists = (alternating if in_turn else pairs)(believed, job.sizes)
     end = CLIMBS_S + STAIR_S * (sum(map(len, lists)) + 1)
     pushes, at = [], CLIMBS_S + rng.uniform(0.0, 4.0)
     while job.pushed > 0.0 and at < end:
         direction = rng.uniform(-math.pi, math.pi)
         pushes.append((at, (job.pushed * math.cos(direction), job.pushed * math.sin(direction))))
         at += rng.uniform(2.0, 4.0)
-    return Plan([], end, pushes, Climber(lists, SETTLES_S, CLIMBS_S))
+    pace = job.sizes.pace
+    return Plan([], end, pushes, Climber(lists, SETTLES_S * pace, CLIMBS_S * pace))
 
 
 def edge(rng: np.random.Generator, job: Job) -> list[dict[str, object]]:

@@ -9,7 +9,8 @@ Every seed draws friction (0.6 to 1.0), masses (all off by up to 10 %, each link
 encoder offsets, the IMU's biases, and the task's own numbers; every noise is on. A trial is lost
 when the torso tilts by more than 0.8 rad or anything but a sole touches the ground. Climbing, the
 footsteps are placed by the true course, seen wrong by as much as the options say; they count from
-where leg odometry has the robot, and are given for one stand after the other.
+where leg odometry has the robot, and are given for one stand after the other. Speeds and times
+go by the robot's size; rises, treads and impulses are what the options say.
 """
 
 import argparse
@@ -70,7 +71,7 @@ class World:
         streams = RandomStreams(job.seed)
         rng = streams("trial")
         self.treads = COURSES[job.task](streams("course"), job) if job.task in COURSES else []
-        course = elements(self.treads)
+        course = elements(self.treads, job.sizes)
         if job.task in EDGES:
             course = EDGES[job.task](streams("course"), job)
         scenario = Scenario.model_validate(
@@ -174,6 +175,7 @@ def run(job: Job) -> Trial:
     """Run one trial."""
     world = World(job)
     plan = climb(world.rng, job, world.treads) if world.treads else TASKS[job.task](world.rng, job)
+    plan = plan.at(job.sizes)
     climber = plan.climber
     fell, touched, turned, heading = None, False, 0.0, 0.0
     for index in range(round(plan.end_s / TICK_S)):

@@ -16,12 +16,29 @@ pub(crate) struct LegPosture {
     pub(crate) odometry_from_torso_rotation: UnitQuaternion<f64>,
     /// Pose of each sole in the torso, left and right.
     pub(crate) torso_from_sole: [Isometry3<f64>; 2],
+    /// Half of a sole's length, m.
+    pub(crate) half_sole_m: f64,
 }
 
 impl LegPosture {
     /// From the torso's origin to the centre of the sole, in the odometry frame's axes, m.
     fn reach_m(&self, side: Side) -> Vector3<f64> {
         self.odometry_from_torso_rotation * self.torso_from_sole[side.index()].translation.vector
+    }
+
+    /// How high the middle of a sole is over its front edge, m, where its heel is lifted: its toes point down against the other sole by
+    /// more than `limit_rad`, which no error of an encoder does.
+    fn lifted_m(&self, side: Side, limit_rad: f64) -> f64 {
+        let [own, other] = [side, side.other()].map(|side| {
+            let sole = self.torso_from_sole[side.index()].rotation;
+            (self.odometry_from_torso_rotation * (sole * Vector3::x())).z
+        });
+        let down = other - own;
+        if down > libm::sin(limit_rad) {
+            self.half_sole_m * down
+        } else {
+            0.0
+        }
     }
 
     /// How far one sole is above the other along the torso's axis, m: whatever the attitude is believed to be.
@@ -147,7 +164,7 @@ impl LegOdometry {
             } else if let Some(other) = other.filter(|_| contacts.holds(side.other())) {
                 let own = anchor.take();
                 if let Some(own) = own.filter(|own| !same_level(own, &other)) {
-                    self.measure_level_again(legs, side, own.z, other.z);
+                    self.measure_level_again(legs, side, own.z, other.z, config.level_limit);
                 }
             }
         }
@@ -155,8 +172,16 @@ impl LegOdometry {
 
     /// As the foot `side` lets go of its level, that of the other foot is measured once more. When it landed, the load was on the
     /// first one, and a leg that carries is a little shorter than its encoders say: the mean of both is right.
-    fn measure_level_again(&mut self, legs: &LegPosture, side: Side, own_m: f64, other_m: f64) {
-        let again_m = own_m + legs.reach_m(side.other()).z - legs.reach_m(side).z;
+    fn measure_level_again(
+        &mut self,
+        legs: &LegPosture,
+        side: Side,
+        own_m: f64,
+        other_m: f64,
+        limit_rad: f64,
+    ) {
+        let lifted_m = legs.lifted_m(side, limit_rad);
+        let again_m = own_m + legs.reach_m(side.other()).z - legs.reach_m(side).z + lifted_m;
         if let Some(anchor) = &mut self.anchors_m[side.other().index()] {
             anchor.z = f64::midpoint(other_m, again_m);
         }
@@ -203,79 +228,5 @@ pub(crate) fn odometry_from_torso(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_level_is_right_though_legs_give_way_under_load() {
-        const SAG_M: f64 = 0.001;
-        const RISE_M: f64 = 0.03;
-        let config = ProprioceptionConfig::default();
-        let mut contacts = FootContacts::new(65.0, &config);
-        let mut odometry = LegOdometry::new();
-        let legs = |soles_m: [f64; 2], left: f64| LegPosture {
-            odometry_from_torso_rotation: UnitQuaternion::identity(),
-            torso_from_sole: [(0.04, left), (-0.04, 1.0 - left)].map(|(y_m, share)| {
-                let sole_m = if y_m > 0.0 { soles_m[0] } else { soles_m[1] };
-                Isometry3::translation(0.0, y_m, sole_m - 0.2 - SAG_M * share)
-            }),
-        };
-        odometry.start(&legs([0.0; 2], 0.5));
-        let mut level_m = 0.0;
-        // Onto the right foot, the left one up, onto it, the right one up, and onto both.
-        for (soles_m, from, to) in [
-            ([0.0, 0.0], 0.5, 0.0),
-            ([RISE_M, 0.0], 0.0, 1.0),
-            ([RISE_M, RISE_M], 1.0, 0.5),
-        ] {
-            for tick in 0..=100 {
-                let left = from + (to - from) * f64::from(tick) / 100.0;
-                let loads = [left, 1.0 - left].map(|share| [0.25 * 65.0 * share; 4]);
-                contacts.update(&loads, &config);
-                let robot = odometry.update(&legs(soles_m, left), &contacts, &config);
-                level_m = robot.origin().inner.z;
-            }
-        }
-        assert!((level_m - RISE_M).abs() < 2e-4, "{level_m}");
-    }
-
-    /// Height of the robot after steps of 5 mm up each, told or not told that they are a slope's.
-    fn climbed_m(on_slope: bool) -> f64 {
-        const STEP_M: f64 = 0.005;
-        let config = ProprioceptionConfig::default();
-        let mut contacts = FootContacts::new(65.0, &config);
-        let mut odometry = LegOdometry::new();
-        let legs = |soles_m: [f64; 2]| LegPosture {
-            odometry_from_torso_rotation: UnitQuaternion::identity(),
-            torso_from_sole: [(0.04, soles_m[0]), (-0.04, soles_m[1])]
-                .map(|(y_m, sole_m)| Isometry3::translation(0.0, y_m, sole_m - 0.2)),
-        };
-        odometry.start(&legs([0.0; 2]));
-        let mut soles_m = [0.0; 2];
-        let mut level_m = 0.0;
-        for step in 0..8 {
-            let side = step % 2;
-            for lifted in [true, false] {
-                if !lifted {
-                    soles_m[side] = STEP_M * (step + 1) as f64;
-                }
-                let mut shares = [1.0; 2];
-                shares[side] = if lifted { 0.0 } else { 1.0 };
-                for _ in 0..20 {
-                    odometry.on_slope = [on_slope; 2];
-                    contacts.update(&shares.map(|share| [0.12 * 65.0 * share; 4]), &config);
-                    let robot = odometry.update(&legs(soles_m), &contacts, &config);
-                    level_m = robot.origin().inner.z;
-                }
-            }
-        }
-        level_m
-    }
-
-    #[test]
-    fn small_steps_add_up_on_a_slope_and_are_none_on_level_ground() {
-        let (sloped_m, level_m) = (climbed_m(true), climbed_m(false));
-        assert!((sloped_m - 0.0375).abs() < 1e-3, "{sloped_m}");
-        assert!(level_m.abs() < 1e-9, "{level_m}");
-    }
-}
+#[path = "leg_odometry_tests.rs"]
+mod tests;

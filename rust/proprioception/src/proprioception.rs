@@ -107,6 +107,7 @@ impl Proprioception {
             odometry_from_torso_rotation: self.attitude.odometry_from_imu
                 * torso_from_imu.inverse(),
             torso_from_sole,
+            half_sole_m: 0.5 * self.body.description().legs.left.sole.length,
         };
         self.watch_start(observation.time_ns, &legs);
         if self.starting_since_ns.is_some() && (self.contacts.both_hold() || !self.stood) {

@@ -104,6 +104,8 @@ settings! {
         climb_sideways_down: f64 = 0.015, "m", above_to(0.0, 10.0);
         /// Highest listed step up or down.
         climb_rise: f64 = 0.055, "m", above_to(0.0, 10.0);
+        /// The farthest that the torso leans forward on high steps up, so that the shank clears the step behind.
+        climb_lean: f64 = 0.6, "rad", within(0.0, 1.0);
         /// Speed at which a foot goes down that has not found the ground where it was told to be.
         probe_speed: f64 = 0.08, "m/s", above_to(0.0, 10.0);
         /// How much deeper than told a foot seeks the ground.

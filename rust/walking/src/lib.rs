@@ -24,7 +24,9 @@ mod felt_gait;
 pub mod footsteps;
 pub mod gait;
 mod gaze;
+mod heel;
 mod landing;
+mod lean;
 pub mod leg;
 mod leg_angles;
 mod leg_geometry;
@@ -49,6 +51,7 @@ pub mod task;
 #[cfg(test)]
 mod test_biped;
 mod tipping;
+mod trunk;
 mod tuning;
 mod walker;
 

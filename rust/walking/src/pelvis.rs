@@ -8,9 +8,11 @@ use robot::Side;
 use crate::config::GaitConfig;
 use crate::felt::KnownGround;
 use crate::gait::Gait;
+use crate::lean::Lean;
 use crate::leg::LegSolver;
 use crate::phase::{FootPose, GaitReference};
 use crate::task::Task;
+use crate::trunk::{Trunk, TrunkPlace};
 use crate::tuning::PelvisTuning;
 
 /// What the hips' height is for.
@@ -26,17 +28,6 @@ pub(crate) struct Course<'a> {
     pub(crate) com: Vector2<f64>,
 }
 
-/// Where the torso is over the centre of mass.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct TrunkPlace {
-    /// From the centre of mass to the torso's origin over the ground, m.
-    pub(crate) from_com: Vector2<f64>,
-    /// Where the torso looks, a unit vector.
-    pub(crate) forward: Vector2<f64>,
-    /// From the torso's origin to each hip, in the plan's axes, m.
-    pub(crate) hips: [nalgebra::Vector3<f64>; 2],
-}
-
 /// The height of the torso's origin over the plan's ground.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Pelvis {
@@ -48,11 +39,14 @@ pub(crate) struct Pelvis {
     height_m: f64,
     rate_mps: f64,
     started: bool,
+    lean: Lean,
 }
 
 impl Pelvis {
-    pub(crate) fn new(config: &GaitConfig) -> Self {
+    /// `half_sole_m`: half of a sole's length.
+    pub(crate) fn new(config: &GaitConfig, half_sole_m: f64) -> Self {
         Self {
+            lean: Lean::new(config, half_sole_m),
             hip_height_m: config.hip_height,
             hip_stretch_rad: config.hip_stretch,
             speed_mps: config.hip_speed,
@@ -61,29 +55,38 @@ impl Pelvis {
         }
     }
 
-    /// The height for this tick, m. `feet`: where the feet are put now.
-    pub(crate) fn height_m(
+    /// Height of the torso's origin, m, and how far the torso leans forward, rad, for this tick. `feet`: where the feet are put now.
+    pub(crate) fn place(
         &mut self,
         course: &Course<'_>,
         legs: &[LegSolver; 2],
-        trunk: &TrunkPlace,
+        trunk: &Trunk,
         feet: &[FootPose; 2],
         passed_s: f64,
-    ) -> f64 {
+    ) -> (f64, f64) {
         let (apart_s, smooth_s) = (self.tuning.apart, self.tuning.smooth_time);
-        let over = course.com + trunk.from_com;
-        let now_m = self.limit_m(legs, trunk, feet, course.gait.ground_m(), &over);
+        let place = trunk.place(self.lean.rad);
+        let over = course.com + place.from_com;
+        let now_m = self.limit_m(legs, &place, feet, course.gait.ground_m(), &over);
         let mut goal_m = now_m;
         let mut gait = course.gait.clone();
         let mut com = course.com;
+        let mut lean_rad = self
+            .lean
+            .needed_rad(&gait, legs, trunk, &com, |_| self.height_m);
         for moment in 1..=self.tuning.moments {
             gait.advance(apart_s, course.task, &KnownGround::AsTold);
             let GaitReference { dcm, .. } = gait.reference(course.omega, course.task);
             com += (dcm - com) * (1.0 - libm::exp(-course.omega * apart_s));
             let feet = Side::BOTH.map(|side| gait.foot(side));
-            let over = com + trunk.from_com;
-            let limit_m = self.limit_m(legs, trunk, &feet, gait.ground_m(), &over);
-            let left_s = (moment as f64 * apart_s - self.tuning.late * smooth_s).max(0.0);
+            let limit = |place: &TrunkPlace| {
+                self.limit_m(legs, place, &feet, gait.ground_m(), &(com + place.from_com))
+            };
+            let then_s = moment as f64 * apart_s;
+            let needed_rad = self.lean.needed_rad(&gait, legs, trunk, &com, limit);
+            let left_s = (then_s - self.tuning.late * smooth_s).max(0.0);
+            lean_rad = lean_rad.max(self.lean.before_rad(needed_rad, left_s));
+            let limit_m = limit(&trunk.place(self.lean.after_rad(needed_rad, then_s)));
             goal_m = goal_m.min(limit_m + self.speed_mps * left_s);
         }
         if !self.started {
@@ -97,7 +100,8 @@ impl Pelvis {
         let pull = (self.goal_m - self.height_m) / smooth_s;
         self.rate_mps = (self.rate_mps + stiff * pull) / ((1.0 + stiff) * (1.0 + stiff));
         self.height_m += self.rate_mps * passed_s;
-        self.height_m
+        self.lean.go(lean_rad, passed_s);
+        (self.height_m, self.lean.rad)
     }
 
     /// The greatest height at which both soles are reached, the hips no higher over the ground than the gait says.

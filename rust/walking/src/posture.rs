@@ -9,12 +9,14 @@ use crate::balance::Balance;
 use crate::config::GaitConfig;
 use crate::error::WalkError;
 use crate::gait::Gait;
+use crate::heel::Heel;
 use crate::leg::{LegAngles, LegSolver};
-use crate::pelvis::{Course, Pelvis, TrunkPlace};
+use crate::pelvis::{Course, Pelvis};
 use crate::phase::{FootPose, GaitPhase};
 use crate::shared_hip::SharedHip;
 use crate::support::Pressure;
 use crate::targets::JointTargets;
+use crate::trunk::Trunk;
 use crate::tuning::PostureTuning;
 
 /// What a posture is for.
@@ -39,6 +41,7 @@ pub(crate) struct Posture {
     shared_hip: Option<SharedHip>,
     mass_kg: f64,
     pelvis: Pelvis,
+    heel: Heel,
     swing_tilt: f64,
     tuning: PostureTuning,
     yaw_rad: f64,
@@ -53,6 +56,7 @@ impl Posture {
     /// For this body and gait; fails where a leg does not fit the inverse kinematics.
     pub(crate) fn new(body: &Body, config: &GaitConfig) -> Result<Self, WalkError> {
         let tuning = &config.tuning;
+        let half_sole_m = 0.5 * body.description().legs.left.sole.length;
         let leg = |side| LegSolver::new(body, side, config.max_extension, &tuning.leg);
         let legs = [leg(Side::Left)?, leg(Side::Right)?];
         Ok(Self {
@@ -60,7 +64,8 @@ impl Posture {
             near_rad: [0, 1].map(|index: usize| *legs[index].rest_rad()),
             legs,
             mass_kg: body.mass_kg(),
-            pelvis: Pelvis::new(config),
+            pelvis: Pelvis::new(config, half_sole_m),
+            heel: Heel::new(config, half_sole_m),
             swing_tilt: config.swing_tilt,
             tuning: tuning.posture.clone(),
             yaw_rad: 0.0,
@@ -83,28 +88,33 @@ impl Posture {
         let turn = geometry::angle_between(self.yaw_rad, goal);
         let share = (self.tuning.turn_rate * passed_s).min(1.0);
         self.yaw_rad = geometry::wrap_angle(self.yaw_rad + turn * share);
-        let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_rad);
         body.pose_links(&targets.positions_rad, &mut self.poses)?;
         let about = body.center_of_mass_in_torso(&self.poses);
-        let offset = rotation * about.coords;
-        let course = &moment.course;
-        let over = course.com - offset.xy();
-        let trunk = TrunkPlace {
-            from_com: -offset.xy(),
-            forward: (rotation * Vector3::x()).xy(),
-            hips: [0, 1].map(|index| rotation * self.legs[index].hip()),
+        let trunk = Trunk {
+            heading: UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_rad),
+            com: about.coords,
+            hips: [0, 1].map(|index| *self.legs[index].hip()),
         };
-        let height = self
+        let course = &moment.course;
+        let (height, lean_rad) = self
             .pelvis
-            .height_m(course, &self.legs, &trunk, feet, passed_s);
+            .place(course, &self.legs, &trunk, feet, passed_s);
+        let rotation = trunk.rotation(lean_rad);
+        let over = course.com - (rotation * about.coords).xy();
         let place = Translation3::new(over.x, over.y, height);
         let plan_from_torso = Isometry3::from_parts(place, rotation);
         let torso_from_plan = plan_from_torso.inverse();
-        let soles = Side::BOTH.map(|side| {
+        let mut soles = Side::BOTH.map(|side| {
             let lean = self.lean(moment, &plan_from_torso, side);
             let sole = feet[side.index()].plan_from_sole();
             torso_from_plan * lean * sole * moment.ankles.level_from_sole(side)
         });
+        if let Some(side) = Heel::behind(course.gait, &self.legs) {
+            let (leg, sole) = (&self.legs[side.index()], &mut soles[side.index()]);
+            let front_m = feet[side.index()].bearing.to_m;
+            let joints = &targets.positions_rad;
+            *sole = self.heel.lifted(body, leg, side, sole, front_m, joints)?;
+        }
         let solutions = self.solve(&soles, &about);
         self.short_m = [0, 1].map(|index| solutions[index].short_m);
         self.near_rad = [0, 1].map(|index| solutions[index].angles_rad);

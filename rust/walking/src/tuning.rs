@@ -18,6 +18,10 @@ settings! {
         posture: PostureTuning;
         /// The height of the hips.
         pelvis: PelvisTuning;
+        /// How the torso leans forward on high steps.
+        lean: LeanTuning;
+        /// How a heel lifts.
+        heel: HeelTuning;
         /// Where a sole carries, and when feet stand side by side.
         stance: StanceTuning;
         /// How far the steps are looked ahead.
@@ -110,6 +114,36 @@ settings! {
         late: f64 = 2.5, "1", NOT_NEGATIVE;
         /// How much faster than up the height to come to goes down.
         fall: f64 = 2.0, "1", POSITIVE;
+    }
+}
+
+settings! {
+    /// How the torso leans forward on a step up that is higher than the ankle: the shank is to clear the step behind it.
+    pub struct LeanTuning("gait.tuning.lean") {
+        /// The edge of the step behind is taken to be so far ahead of the toes.
+        edge_ahead: f64 = 0.01, "m", within(0.0, 10.0);
+        /// Least distance of the shank's middle line from that edge.
+        clearance: f64 = 0.022, "m", within(0.0, 10.0);
+        /// Fastest that the torso leans.
+        speed: f64 = 0.8, "rad/s", above_to(0.0, 100.0);
+        /// Time constant of the smoothing of the lean.
+        smooth_time: f64 = 0.06, "s", above_to(0.0, 60.0);
+        /// A torso that is to be upright and leans by less is.
+        upright: f64 = 1e-4, "rad", above_to(0.0, 1.0);
+        /// How often the range in which the lean is sought is halved.
+        halvings: usize = 7, "1", within(1.0, 60.0);
+    }
+}
+
+settings! {
+    /// How the heel of a foot lifts that is left behind on the upper of two levels: its ankle bends no further.
+    pub struct HeelTuning("gait.tuning.heel") {
+        /// How often the angle is sought that the ankle asks for.
+        times: usize = 5, "1", within(0.0, 60.0);
+        /// A smaller angle is not worth another time.
+        least: f64 = 5e-4, "rad", above_to(0.0, 1.0);
+        /// The heel lifts by no more than this.
+        most: f64 = 0.6, "rad", within(0.0, 1.5);
     }
 }
 

@@ -1,0 +1,116 @@
+//! Levels that leg odometry measures.
+
+use super::*;
+
+#[test]
+fn a_level_is_right_though_legs_give_way_under_load() {
+    const SAG_M: f64 = 0.001;
+    const RISE_M: f64 = 0.03;
+    let config = ProprioceptionConfig::default();
+    let mut contacts = FootContacts::new(65.0, &config);
+    let mut odometry = LegOdometry::new();
+    let legs = |soles_m: [f64; 2], left: f64| LegPosture {
+        odometry_from_torso_rotation: UnitQuaternion::identity(),
+        torso_from_sole: [(0.04, left), (-0.04, 1.0 - left)].map(|(y_m, share)| {
+            let sole_m = if y_m > 0.0 { soles_m[0] } else { soles_m[1] };
+            Isometry3::translation(0.0, y_m, sole_m - 0.2 - SAG_M * share)
+        }),
+        half_sole_m: 0.05,
+    };
+    odometry.start(&legs([0.0; 2], 0.5));
+    let mut level_m = 0.0;
+    // Onto the right foot, the left one up, onto it, the right one up, and onto both.
+    for (soles_m, from, to) in [
+        ([0.0, 0.0], 0.5, 0.0),
+        ([RISE_M, 0.0], 0.0, 1.0),
+        ([RISE_M, RISE_M], 1.0, 0.5),
+    ] {
+        for tick in 0..=100 {
+            let left = from + (to - from) * f64::from(tick) / 100.0;
+            let loads = [left, 1.0 - left].map(|share| [0.25 * 65.0 * share; 4]);
+            contacts.update(&loads, &config);
+            let robot = odometry.update(&legs(soles_m, left), &contacts, &config);
+            level_m = robot.origin().inner.z;
+        }
+    }
+    assert!((level_m - RISE_M).abs() < 2e-4, "{level_m}");
+}
+
+#[test]
+fn a_heel_that_lifts_before_the_foot_lets_go_does_not_lower_the_other_level() {
+    const RISE_M: f64 = 0.08;
+    const HALF_M: f64 = 0.05;
+    const LIFTED_RAD: f64 = 0.3;
+    let config = ProprioceptionConfig::default();
+    let mut contacts = FootContacts::new(65.0, &config);
+    let mut odometry = LegOdometry::new();
+    let legs = |left_m: f64, heel_rad: f64| {
+        let edge = Translation3::new(HALF_M, 0.0, 0.0);
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), heel_rad);
+        LegPosture {
+            odometry_from_torso_rotation: UnitQuaternion::identity(),
+            torso_from_sole: [
+                Isometry3::translation(0.1, 0.04, left_m - 0.2),
+                Isometry3::translation(0.0, -0.04, -0.2) * edge * turn * edge.inverse(),
+            ],
+            half_sole_m: HALF_M,
+        }
+    };
+    odometry.start(&legs(0.0, 0.0));
+    let mut level_m = 0.0;
+    for (left_m, heel_rad, share) in [
+        (0.0, 0.0, 0.0),
+        (-RISE_M, 0.0, 0.5),
+        (-RISE_M, LIFTED_RAD, 0.8),
+        (-RISE_M, LIFTED_RAD, 1.0),
+    ] {
+        for _ in 0..50 {
+            let loads = [share, 1.0 - share].map(|share| [0.25 * 65.0 * share; 4]);
+            contacts.update(&loads, &config);
+            let robot = odometry.update(&legs(left_m, heel_rad), &contacts, &config);
+            level_m = robot.origin().inner.z;
+        }
+    }
+    assert!((level_m + RISE_M).abs() < 1e-3, "{level_m}");
+}
+
+/// Height of the robot after steps of 5 mm up each, told or not told that they are a slope's.
+fn climbed_m(on_slope: bool) -> f64 {
+    const STEP_M: f64 = 0.005;
+    let config = ProprioceptionConfig::default();
+    let mut contacts = FootContacts::new(65.0, &config);
+    let mut odometry = LegOdometry::new();
+    let legs = |soles_m: [f64; 2]| LegPosture {
+        odometry_from_torso_rotation: UnitQuaternion::identity(),
+        torso_from_sole: [(0.04, soles_m[0]), (-0.04, soles_m[1])]
+            .map(|(y_m, sole_m)| Isometry3::translation(0.0, y_m, sole_m - 0.2)),
+        half_sole_m: 0.05,
+    };
+    odometry.start(&legs([0.0; 2]));
+    let mut soles_m = [0.0; 2];
+    let mut level_m = 0.0;
+    for step in 0..8 {
+        let side = step % 2;
+        for lifted in [true, false] {
+            if !lifted {
+                soles_m[side] = STEP_M * (step + 1) as f64;
+            }
+            let mut shares = [1.0; 2];
+            shares[side] = if lifted { 0.0 } else { 1.0 };
+            for _ in 0..20 {
+                odometry.on_slope = [on_slope; 2];
+                contacts.update(&shares.map(|share| [0.12 * 65.0 * share; 4]), &config);
+                let robot = odometry.update(&legs(soles_m), &contacts, &config);
+                level_m = robot.origin().inner.z;
+            }
+        }
+    }
+    level_m
+}
+
+#[test]
+fn small_steps_add_up_on_a_slope_and_are_none_on_level_ground() {
+    let (sloped_m, level_m) = (climbed_m(true), climbed_m(false));
+    assert!((sloped_m - 0.0375).abs() < 1e-3, "{sloped_m}");
+    assert!(level_m.abs() < 1e-9, "{level_m}");
+}
