@@ -89,7 +89,11 @@ impl Heel {
         side: Side,
         torso_from_sole: &Isometry3<f64>,
     ) -> Result<f64, WalkError> {
-        let solution = leg.solve(torso_from_sole);
+        let mut near_rad = *leg.rest_rad();
+        for (near, &joint) in near_rad.iter_mut().zip(leg.joints()) {
+            *near = self.angles_rad[joint];
+        }
+        let solution = leg.solve(torso_from_sole, &near_rad);
         if solution.reached {
             return Ok(0.0);
         }
@@ -171,7 +175,8 @@ mod tests {
                 &joints,
             )
             .unwrap();
-        for (&joint, &angle) in leg.joints().iter().zip(&leg.solve(&wanted).angles_rad) {
+        let found = leg.solve(&wanted, leg.rest_rad());
+        for (&joint, &angle) in leg.joints().iter().zip(&found.angles_rad) {
             joints[joint] = angle;
         }
         let mut poses = LinkPoses::default();
