@@ -12,9 +12,11 @@ import numpy as np
 import pytest
 
 from treadwell.cli.app import execute
-from treadwell.recording import recorder
+from treadwell.recording import cut_off, recorder
 from treadwell.recording.cut_off import cut_run, is_cut_off
+from treadwell.recording.log_file import Front
 from treadwell.recording.map_file import read_map
+from treadwell.recording.observation_log import ROBOT
 from treadwell.recording.trajectory import read_trajectory
 from treadwell.recording.verification import verify_run
 
@@ -66,6 +68,30 @@ def test_what_it_left_is_whole_and_loses_half_a_second_at_most(cut: Path) -> Non
     assert found.cut is not None
     assert found.cut.seconds is not None
     assert abs(found.steps * 0.002 - found.cut.seconds) <= 0.5
+
+
+@pytest.mark.parametrize(
+    ("asks", "told", "scale"),
+    [
+        (True, b'{"scale": 2.5}', 2.5),
+        (False, b'{"scale": 2.5}', 1.0),
+        (True, b"{}", 1.0),
+        (True, b'{"scale": -1.0}', 1.0),
+        (True, b"no json", 1.0),
+    ],
+)
+def test_of_a_course_made_to_the_robot_the_log_says_by_what_it_was_multiplied(
+    cut: Path, monkeypatch: pytest.MonkeyPatch, *, asks: bool, told: bytes, scale: float
+) -> None:
+    file = cut / "scenario.toml"
+    text = file.read_text(encoding="utf-8")
+    assert "scale_to_robot = false" in text
+    file.write_text(text.replace("scale_to_robot = false", f"scale_to_robot = {str(asks).lower()}"))
+    front = Front({}, {ROBOT: told})
+    monkeypatch.setattr(cut_off, "read_front", lambda _: front)
+    found = cut_run(cut)
+    assert found is not None
+    assert found.scale == scale
 
 
 def test_inspect_says_it(
