@@ -5,7 +5,7 @@
 use nalgebra::{Isometry3, SMatrix, SVector, Vector3};
 use robot::{Body, MOST_LEG_JOINTS, Side};
 
-use crate::chain_anatomy::{Anatomy, Hinges};
+use crate::chain_anatomy::{LegAnatomy, LegHinges};
 use crate::error::WalkError;
 use crate::leg_angles::LegAngles;
 use crate::leg_sizes::LegSizes;
@@ -25,9 +25,9 @@ const TURNS: [&str; 3] = ["roll", "pitch", "yaw"];
 
 /// A leg as a chain of hinges.
 #[derive(Debug, Clone)]
-pub(crate) struct Chain {
-    hinges: Hinges,
-    anatomy: Anatomy,
+pub(crate) struct LegChain {
+    hinges: LegHinges,
+    anatomy: LegAnatomy,
     rest_rad: Angles,
     longest_m: f64,
     shortest_m: f64,
@@ -36,7 +36,7 @@ pub(crate) struct Chain {
 
 /// What the sole, or the ankle, is to do.
 #[derive(Debug, Clone, Copy)]
-struct Task {
+struct SoleTask {
     torso_from_sole: Isometry3<f64>,
     /// The point that has to be where it is on the sole, in its frame, m.
     point: Vector3<f64>,
@@ -54,7 +54,7 @@ struct Solution {
     done: bool,
 }
 
-impl Chain {
+impl LegChain {
     /// Reads it from the body, with its sizes; the leg gets no longer than `max_extension` of its straight length.
     pub(crate) fn read(
         body: &Body,
@@ -62,12 +62,12 @@ impl Chain {
         max_extension: f64,
         tuning: &LegTuning,
     ) -> Result<(Self, LegSizes), WalkError> {
-        let mut hinges = Hinges::read(body, side)?;
+        let mut hinges = LegHinges::read(body, side)?;
         let mut rest_rad = [0.0; MOST_LEG_JOINTS];
         for (rest, &joint) in rest_rad.iter_mut().zip(body.leg_joints(side)) {
             *rest = body.description().stand[joint];
         }
-        let anatomy = Anatomy::read(&hinges, &rest_rad).ok_or_else(|| WalkError::Leg {
+        let anatomy = LegAnatomy::read(&hinges, &rest_rad).ok_or_else(|| WalkError::Leg {
             side,
             what: "none of its joints bends it as a knee does".to_owned(),
         })?;
@@ -102,7 +102,7 @@ impl Chain {
     /// The joint angles that put the sole there.
     pub(crate) fn solve(&self, torso_from_sole: &Isometry3<f64>, near_rad: &Angles) -> LegAngles {
         self.reach(
-            Task {
+            SoleTask {
                 torso_from_sole: *torso_from_sole,
                 point: Vector3::zeros(),
                 left_open: self.anatomy.left_open,
@@ -123,7 +123,7 @@ impl Chain {
         let mut near_rad = *near_rad;
         near_rad[slot] = held_rad;
         self.reach(
-            Task {
+            SoleTask {
                 torso_from_sole: *torso_from_sole,
                 point: self.anatomy.sizes.ankle_in_sole,
                 left_open: Some(2),
@@ -143,7 +143,7 @@ impl Chain {
         (angle(&turned) - angle(&sole)) / SMALL_RAD
     }
 
-    fn reach(&self, task: Task, near_rad: &Angles) -> LegAngles {
+    fn reach(&self, task: SoleTask, near_rad: &Angles) -> LegAngles {
         let mut found = self.iterate(&task, near_rad);
         let mut short_m = 0.0;
         if !found.done {
@@ -171,7 +171,7 @@ impl Chain {
 
     /// The task with the sole moved along the line from ankle to hip until the leg is long and short enough, and by how much it is too
     /// short, m.
-    fn shortened(&self, mut task: Task) -> (Task, f64) {
+    fn shortened(&self, mut task: SoleTask) -> (SoleTask, f64) {
         let LegSizes {
             hip, ankle_in_sole, ..
         } = &self.anatomy.sizes;
@@ -187,7 +187,7 @@ impl Chain {
         (task, (wanted_m - length_m).max(0.0))
     }
 
-    fn iterate(&self, task: &Task, near_rad: &Angles) -> Solution {
+    fn iterate(&self, task: &SoleTask, near_rad: &Angles) -> Solution {
         let all = self.hinges.all();
         let leg_m = self.anatomy.sizes.thigh_m + self.anatomy.sizes.shank_m;
         let mut angles_rad = [0.0; MOST_LEG_JOINTS];
@@ -231,7 +231,7 @@ impl Chain {
     }
 
     /// By how much the sole is off (turns times the length of the leg, all in m), and how each joint moves it.
-    fn error(&self, task: &Task, angles_rad: &Angles, leg_m: f64) -> (SVector<f64, 6>, Moves) {
+    fn error(&self, task: &SoleTask, angles_rad: &Angles, leg_m: f64) -> (SVector<f64, 6>, Moves) {
         let (posed, sole) = self.hinges.posed(angles_rad);
         let wanted = &task.torso_from_sole;
         let point = sole.translation.vector + sole.rotation * task.point;
@@ -260,7 +260,7 @@ impl Chain {
     /// The damped step from these angles, rad.
     fn step(
         &self,
-        task: &Task,
+        task: &SoleTask,
         angles_rad: &Angles,
         error: &SVector<f64, 6>,
         mut moves: Moves,

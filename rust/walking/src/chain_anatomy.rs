@@ -16,7 +16,7 @@ const LIKELY: f64 = 1e-6;
 
 /// A hinge of a chain, in the torso's frame at joint angles zero.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Hinge {
+pub(crate) struct LegHinge {
     /// Unit vector along its axis.
     pub(crate) axis: Vector3<f64>,
     /// A point of it, m.
@@ -25,7 +25,7 @@ pub(crate) struct Hinge {
     pub(crate) range_rad: [f64; 2],
 }
 
-impl Hinge {
+impl LegHinge {
     /// What it turns, turned by an angle.
     pub(crate) fn turned(&self, angle_rad: f64) -> Isometry3<f64> {
         let (sin, cos) = libm::sincos(0.5 * angle_rad);
@@ -45,13 +45,13 @@ impl Hinge {
 
 /// The hinges of a leg, and the sole behind them at joint angles zero; all other joints as in the upright stance.
 #[derive(Debug, Clone)]
-pub(crate) struct Hinges {
-    all: [Hinge; MOST_LEG_JOINTS],
+pub(crate) struct LegHinges {
+    all: [LegHinge; MOST_LEG_JOINTS],
     count: usize,
     torso_from_sole_at_zero: Isometry3<f64>,
 }
 
-impl Hinges {
+impl LegHinges {
     /// Reads them; fails where the joints are no chain that ends at the sole.
     pub(crate) fn read(body: &Body, side: Side) -> Result<Self, WalkError> {
         let refuse = |what: String| WalkError::Leg { side, what };
@@ -63,7 +63,7 @@ impl Hinges {
         let mut poses = LinkPoses::default();
         body.pose_links(&angles_rad, &mut poses)?;
         let mut above = above(body, body.sole_link(side));
-        let unused = Hinge {
+        let unused = LegHinge {
             axis: Vector3::z(),
             anchor: Vector3::zeros(),
             range_rad: [0.0; 2],
@@ -84,7 +84,7 @@ impl Hinges {
                 )));
             }
             let pose = &poses.torso_from_link[link];
-            all[slot] = Hinge {
+            all[slot] = LegHinge {
                 axis: pose.rotation * Vector3::from(hinge.axis).normalize(),
                 anchor: (pose * Point3::from(hinge.anchor)).coords,
                 range_rad: hinge.range,
@@ -98,7 +98,7 @@ impl Hinges {
     }
 
     /// The hinges, from the hip down.
-    pub(crate) fn all(&self) -> &[Hinge] {
+    pub(crate) fn all(&self) -> &[LegHinge] {
         &self.all[..self.count]
     }
 
@@ -139,7 +139,7 @@ fn above(body: &Body, link: usize) -> impl Iterator<Item = usize> {
 
 /// What the joints of a leg do.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Anatomy {
+pub(crate) struct LegAnatomy {
     /// The joint that bends the leg.
     pub(crate) knee: usize,
     /// The knee's angle at which the leg is straight, rad.
@@ -154,13 +154,13 @@ pub(crate) struct Anatomy {
     pub(crate) left_open: Option<usize>,
 }
 
-impl Anatomy {
+impl LegAnatomy {
     /// Looks at the hinges in the upright stance.
-    pub(crate) fn read(hinges: &Hinges, rest_rad: &[f64; MOST_LEG_JOINTS]) -> Option<Self> {
+    pub(crate) fn read(hinges: &LegHinges, rest_rad: &[f64; MOST_LEG_JOINTS]) -> Option<Self> {
         let count = hinges.all().len();
         let knee = knee(hinges, rest_rad)?;
         let (posed, sole) = hinges.posed(rest_rad);
-        let at = |slot: usize| Hinge {
+        let at = |slot: usize| LegHinge {
             axis: posed[slot].0,
             anchor: posed[slot].1,
             ..hinges.all()[slot]
@@ -205,7 +205,7 @@ impl Anatomy {
     }
 }
 
-impl Anatomy {
+impl LegAnatomy {
     /// The knee's angles between which hip and ankle are so far apart, rad.
     pub(crate) fn bent_between(&self, shortest_m: f64, longest_m: f64) -> [f64; 2] {
         let (a, b) = (self.sizes.thigh_m, self.sizes.shank_m);
@@ -218,7 +218,7 @@ impl Anatomy {
 }
 
 /// The joint that, when it is bent, brings the sole nearest to the hip.
-fn knee(hinges: &Hinges, rest_rad: &[f64; MOST_LEG_JOINTS]) -> Option<usize> {
+fn knee(hinges: &LegHinges, rest_rad: &[f64; MOST_LEG_JOINTS]) -> Option<usize> {
     let all = hinges.all();
     let hip = all.first()?.nearest(&all.get(1)?.anchor);
     let nearest_m = |slot: usize| {
@@ -237,7 +237,7 @@ fn knee(hinges: &Hinges, rest_rad: &[f64; MOST_LEG_JOINTS]) -> Option<usize> {
 }
 
 /// Where axes meet or, if they do not, come nearest to each other; as near to `likely` as they leave it open.
-fn meeting(axes: impl Iterator<Item = Hinge>, likely: &Vector3<f64>) -> Option<Vector3<f64>> {
+fn meeting(axes: impl Iterator<Item = LegHinge>, likely: &Vector3<f64>) -> Option<Vector3<f64>> {
     let mut across = Matrix3::identity() * LIKELY;
     let mut sum = likely * LIKELY;
     for hinge in axes {
@@ -249,7 +249,7 @@ fn meeting(axes: impl Iterator<Item = Hinge>, likely: &Vector3<f64>) -> Option<V
 }
 
 /// The axis of the sole about which it can least be turned while it stays where it is.
-fn left_open(hinges: &Hinges, rest_rad: &[f64; MOST_LEG_JOINTS], leg_m: f64) -> usize {
+fn left_open(hinges: &LegHinges, rest_rad: &[f64; MOST_LEG_JOINTS], leg_m: f64) -> usize {
     let (posed, sole) = hinges.posed(rest_rad);
     let back = sole.rotation.inverse();
     let mut moves = SMatrix::<f64, 6, MOST_LEG_JOINTS>::zeros();

@@ -223,7 +223,7 @@ proptest! {
         let tuning = LegTuning::default();
         let closed = LegSolver::new(&body, Side::Left, 0.985, &tuning).unwrap();
         prop_assert!(closed.not_closed().is_none());
-        let (chain, sizes) = Chain::read(&body, Side::Left, 0.985, &tuning).unwrap();
+        let (chain, sizes) = LegChain::read(&body, Side::Left, 0.985, &tuning).unwrap();
         prop_assert!((sizes.hip - closed.hip()).norm() < 1e-6);
         prop_assert!((chain.longest_m() - closed.max_length_m).abs() < 1e-6);
         let rotation = UnitQuaternion::from_scaled_axis(Vector3::from(turn));

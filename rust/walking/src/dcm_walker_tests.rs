@@ -232,7 +232,7 @@ fn a_bad_setting_is_refused_by_its_key() {
         (
             "double_support",
             0.9,
-            "gait.double_support must be < step_time (0.6), got 0.9",
+            "gait.double_support must be < step_time (0.5), got 0.9",
         ),
     ] {
         let mut bad = description();

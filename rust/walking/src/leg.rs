@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Vector2, Vector3};
 use robot::{Body, MOST_LEG_JOINTS, Side};
 
-use crate::chain::Chain;
+use crate::chain::LegChain;
 use crate::closed_form::ClosedForm;
 use crate::error::WalkError;
 pub use crate::leg_angles::LegAngles;
@@ -16,7 +16,7 @@ use crate::tuning::LegTuning;
 pub struct LegSolver {
     joints: Vec<usize>,
     sizes: LegSizes,
-    form: Form,
+    form: SolvedBy,
     rest_rad: [f64; MOST_LEG_JOINTS],
     /// Longest distance from hip to ankle, m.
     pub(crate) max_length_m: f64,
@@ -24,10 +24,10 @@ pub struct LegSolver {
 
 /// How angles are found.
 #[derive(Debug, Clone)]
-enum Form {
-    Closed(ClosedForm),
+enum SolvedBy {
+    ClosedForm(ClosedForm),
     Chain {
-        chain: Box<Chain>,
+        chain: Box<LegChain>,
         /// Why the closed form does not hold.
         why: String,
     },
@@ -57,13 +57,13 @@ impl LegSolver {
                 let longest_m = max_extension * (a + b);
                 let shortest_m = (a - b).abs() + tuning.shortest * a;
                 let closed = ClosedForm::new(geometry, longest_m, shortest_m);
-                (sizes, Form::Closed(closed), longest_m)
+                (sizes, SolvedBy::ClosedForm(closed), longest_m)
             }
             Err(why) => {
-                let (chain, sizes) = Chain::read(body, side, max_extension, tuning)?;
+                let (chain, sizes) = LegChain::read(body, side, max_extension, tuning)?;
                 let longest_m = chain.longest_m();
                 let chain = Box::new(chain);
-                (sizes, Form::Chain { chain, why }, longest_m)
+                (sizes, SolvedBy::Chain { chain, why }, longest_m)
             }
         };
         Ok(Self {
@@ -88,16 +88,16 @@ impl LegSolver {
     /// Why its angles are found by Newton's method; `None` where the closed form holds.
     pub fn not_closed(&self) -> Option<&str> {
         match &self.form {
-            Form::Closed(_) => None,
-            Form::Chain { why, .. } => Some(why),
+            SolvedBy::ClosedForm(_) => None,
+            SolvedBy::Chain { why, .. } => Some(why),
         }
     }
 
     /// What its joints leave open of where the sole is, a turn about its own axis: `"roll"`, `"pitch"` or `"yaw"`, for five joints.
     pub fn left_open(&self) -> Option<&'static str> {
         match &self.form {
-            Form::Closed(_) => None,
-            Form::Chain { chain, .. } => chain.left_open(),
+            SolvedBy::ClosedForm(_) => None,
+            SolvedBy::Chain { chain, .. } => chain.left_open(),
         }
     }
 
@@ -144,8 +144,8 @@ impl LegSolver {
         near_rad: &[f64; MOST_LEG_JOINTS],
     ) -> LegAngles {
         match &self.form {
-            Form::Closed(form) => form.solve(torso_from_sole),
-            Form::Chain { chain, .. } => chain.solve(torso_from_sole, near_rad),
+            SolvedBy::ClosedForm(form) => form.solve(torso_from_sole),
+            SolvedBy::Chain { chain, .. } => chain.solve(torso_from_sole, near_rad),
         }
     }
 
@@ -158,7 +158,7 @@ impl LegSolver {
         near_rad: &[f64; MOST_LEG_JOINTS],
     ) -> f64 {
         match &self.form {
-            Form::Closed(form) if slot == 0 => form.wanted_yaw_rad(torso_from_sole),
+            SolvedBy::ClosedForm(form) if slot == 0 => form.wanted_yaw_rad(torso_from_sole),
             _ => self.solve(torso_from_sole, near_rad).angles_rad[slot],
         }
     }
@@ -166,9 +166,9 @@ impl LegSolver {
     /// How much the angle of the joint in `slot` has to grow by a turn of the torso to the left.
     pub fn yaw_per_turn(&self, slot: usize) -> f64 {
         match &self.form {
-            Form::Closed(form) if slot == 0 => form.yaw_per_turn(),
-            Form::Closed(_) => 0.0,
-            Form::Chain { chain, .. } => chain.per_turn(slot, &self.rest_rad),
+            SolvedBy::ClosedForm(form) if slot == 0 => form.yaw_per_turn(),
+            SolvedBy::ClosedForm(_) => 0.0,
+            SolvedBy::Chain { chain, .. } => chain.per_turn(slot, &self.rest_rad),
         }
     }
 
@@ -182,8 +182,8 @@ impl LegSolver {
         near_rad: &[f64; MOST_LEG_JOINTS],
     ) -> LegAngles {
         match &self.form {
-            Form::Closed(form) => form.solve_turned(torso_from_sole, yaw_rad),
-            Form::Chain { chain, .. } => {
+            SolvedBy::ClosedForm(form) => form.solve_turned(torso_from_sole, yaw_rad),
+            SolvedBy::Chain { chain, .. } => {
                 chain.solve_turned(torso_from_sole, slot, yaw_rad, near_rad)
             }
         }

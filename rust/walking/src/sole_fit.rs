@@ -8,13 +8,6 @@ use robot::{Body, Side};
 
 use crate::config::GaitConfig;
 
-/// Width of the soles that the defaults are for, m.
-const QRIO_SOLE_M: f64 = 0.075;
-/// Shortest time of a step, as a share of what the robot's size alone makes it.
-const QUICKEST: f64 = 0.6;
-/// How far the weight goes inwards on a narrower sole, as a share of what its half lacks.
-const INWARD: f64 = 0.25;
-
 impl GaitConfig {
     /// Sets what `[gait]` does not say: a quicker step, after which an error has grown as much less as the sole is narrower; a margin
     /// that is the same share of the sole; and the weight further in. `omega`: of the pendulum, 1/s.
@@ -24,21 +17,21 @@ impl GaitConfig {
             .map(|side| description.legs.get(side).sole.width)
             .into_iter()
             .fold(f64::INFINITY, f64::min);
-        let scaled_m = QRIO_SOLE_M * description.scale;
+        let scaled_m = self.tuning.sole_fit.width;
         let share = width_m / scaled_m;
         if description.size() == settings::Scale::ONE || share >= 1.0 {
             return;
         }
         let is_said = |key: &str| said.get(key).is_some();
         if !is_said("step_time") {
-            let quickest_s = QUICKEST * self.step_time;
+            let quickest_s = self.tuning.sole_fit.quickest * self.step_time;
             self.step_time = (self.step_time + libm::log(share) / omega).max(quickest_s);
         }
         if !is_said("sole_margin") {
             self.sole_margin *= share;
         }
         if !is_said("support_inward") {
-            self.support_inward += INWARD * 0.5 * (scaled_m - width_m);
+            self.support_inward += self.tuning.sole_fit.inward * 0.5 * (scaled_m - width_m);
         }
     }
 }

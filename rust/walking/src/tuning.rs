@@ -14,6 +14,8 @@ settings! {
         leg: LegTuning;
         /// How two hips agree that share one yaw motor.
         shared_hip: SharedHipTuning;
+        /// What narrow soles change of the gait.
+        sole_fit: SoleFitTuning;
         /// How the torso turns, and the swing foot with its tilt.
         posture: PostureTuning;
         /// The height of the hips.
@@ -86,6 +88,18 @@ settings! {
         most_turn: f64 = 0.5, "rad", between(0.0, 1.57);
         /// Least slope of the secant method, as a share of that for legs side by side, which is taken where it is less.
         least_slope: f64 = 0.3, "1", POSITIVE;
+    }
+}
+
+settings! {
+    /// What soles change of the gait that are narrower than those of `qrio` made as large as the robot, where `[gait]` does not say it.
+    pub struct SoleFitTuning("gait.tuning.sole_fit") {
+        /// Width of the soles for which the gait's defaults are.
+        width: f64 = 0.075, "m", above_to(0.0, 10.0);
+        /// Shortest time of a step, as a share of what the robot's size alone makes it.
+        quickest: f64 = 0.6, "1", above_to(0.0, 1.0);
+        /// How far the weight goes inwards, as a share of what half a sole lacks.
+        inward: f64 = 0.25, "1", SHARE;
     }
 }
 
