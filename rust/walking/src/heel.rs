@@ -11,6 +11,16 @@ use crate::leg::LegSolver;
 use crate::phase::GaitPhase;
 use crate::tuning::HeelTuning;
 
+/// A sole that is to lie level.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LevelSole {
+    pub(crate) side: Side,
+    /// Where it is to be.
+    pub(crate) torso_from_sole: Isometry3<f64>,
+    /// Front end of what bears of it, m from its middle.
+    pub(crate) front_m: f64,
+}
+
 /// How far the heel is lifted.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Heel {
@@ -48,24 +58,22 @@ impl Heel {
         (carries && high && ahead_m > 0.0).then_some(side)
     }
 
-    /// Where the sole is put in the torso that would be at `torso_from_sole`: turned about the front edge of what bears of it, as far as the
-    /// leg's joints ask for. `rest_rad`: all joints, those of the other parts as they are.
+    /// Where the sole is put in the torso: turned about the front edge of what bears of it, as far as the leg's joints ask for.
+    /// `rest_rad`: all joints, those of the other parts as they are.
     pub(crate) fn lifted(
         &mut self,
         body: &Body,
         leg: &LegSolver,
-        side: Side,
-        torso_from_sole: &Isometry3<f64>,
-        front_m: f64,
+        level: &LevelSole,
         rest_rad: &[f64],
     ) -> Result<Isometry3<f64>, WalkError> {
         self.angles_rad.clear();
         self.angles_rad.extend_from_slice(rest_rad);
-        let edge = Translation3::new(front_m.min(self.half_sole_m), 0.0, 0.0);
+        let edge = Translation3::new(level.front_m.min(self.half_sole_m), 0.0, 0.0);
         let (mut lifted_rad, mut before) = (0.0, None);
-        let mut sole = *torso_from_sole;
+        let mut sole = level.torso_from_sole;
         for _ in 0..self.tuning.times {
-            let left_rad = self.left_rad(body, leg, side, &sole)?;
+            let left_rad = self.left_rad(body, leg, level.side, &sole)?;
             if left_rad < self.tuning.least {
                 break;
             }
@@ -76,7 +84,7 @@ impl Heel {
             before = Some((lifted_rad, left_rad));
             lifted_rad = (lifted_rad + left_rad / slope).min(self.tuning.most);
             let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), lifted_rad);
-            sole = torso_from_sole * edge * turn * edge.inverse();
+            sole = level.torso_from_sole * edge * turn * edge.inverse();
         }
         Ok(sole)
     }
@@ -165,16 +173,12 @@ mod tests {
         let (body, [leg, _]) = (biped(), legs());
         let mut heel = Heel::new(&config(), HALF_M);
         let mut joints = body.description().stand.clone();
-        let wanted = heel
-            .lifted(
-                &body,
-                &leg,
-                Side::Left,
-                torso_from_sole,
-                f64::INFINITY,
-                &joints,
-            )
-            .unwrap();
+        let level = LevelSole {
+            side: Side::Left,
+            torso_from_sole: *torso_from_sole,
+            front_m: f64::INFINITY,
+        };
+        let wanted = heel.lifted(&body, &leg, &level, &joints).unwrap();
         let found = leg.solve(&wanted, leg.rest_rad());
         for (&joint, &angle) in leg.joints().iter().zip(&found.angles_rad) {
             joints[joint] = angle;

@@ -9,7 +9,7 @@ use crate::balance::Balance;
 use crate::config::GaitConfig;
 use crate::error::WalkError;
 use crate::gait::Gait;
-use crate::heel::Heel;
+use crate::heel::{Heel, LevelSole};
 use crate::leg::{LegAngles, LegSolver};
 use crate::pelvis::{Course, Pelvis};
 use crate::phase::{FootPose, GaitPhase};
@@ -110,10 +110,14 @@ impl Posture {
             torso_from_plan * lean * sole * moment.ankles.level_from_sole(side)
         });
         if let Some(side) = Heel::behind(course.gait, &self.legs) {
-            let (leg, sole) = (&self.legs[side.index()], &mut soles[side.index()]);
-            let front_m = feet[side.index()].bearing.to_m;
-            let joints = &targets.positions_rad;
-            *sole = self.heel.lifted(body, leg, side, sole, front_m, joints)?;
+            let index = side.index();
+            let level = LevelSole {
+                side,
+                torso_from_sole: soles[index],
+                front_m: feet[index].bearing.to_m,
+            };
+            let (leg, joints) = (&self.legs[index], &targets.positions_rad);
+            soles[index] = self.heel.lifted(body, leg, &level, joints)?;
         }
         let solutions = self.solve(&soles, &about);
         self.short_m = [0, 1].map(|index| solutions[index].short_m);
