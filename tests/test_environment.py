@@ -213,6 +213,15 @@ def test_actions_stand_for_metres_and_radians() -> None:
     assert steps.decision(asked | {"foot": 0}).footsteps == ()
 
 
+def test_actions_of_a_larger_robot_stand_for_more_metres_and_as_many_radians() -> None:
+    turning = np.array([1.0, 0.0, 1.0, 0.0, 0.0], np.float32)
+    assert VelocityActions(8, 4.0).decision(turning).velocity == pytest.approx((0.3, 0.0, 0.25))
+    steps = FootstepActions(8, 0.34, 0.4, 4.0)
+    asked = {"foot": 1, "step": np.ones(4), "gaze": np.zeros(2)}
+    (step,) = steps.decision(asked).footsteps
+    assert step[1:5] == pytest.approx((0.4, 0.29, 0.3, 0.2))
+
+
 def test_a_via_point_is_passed_by_belief() -> None:
     made = CourseEnv("open_floor", overrides=("goal.via=[[0.1, 0.0]]", "start.position=[0.0, 0.0]"))
     made.reset(seed=1)

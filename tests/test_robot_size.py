@@ -105,6 +105,9 @@ def test_a_robot_as_much_larger_as_its_legs(tmp_path: Path, times: float) -> Non
     assert rows["navigation.walking.tuning.turn.gain"].default == pytest.approx(1.5 / times**0.5)
     assert rows["navigation.fog.max_range"].default == 4.0
     assert rows["navigation.fog.max_range"].owner == "camera"
+    # Its camera is qrio's, baseline and all.
+    noise = rows["navigation.stairs.tuning.view.height_noise"].default
+    assert noise == pytest.approx(0.025, rel=2e-3)
     # What its file says goes over what follows from its size.
     assert rows["gait.step_time"].default == robot.file.gait["step_time"]
     assert rows["gait.climb_rise"].default == pytest.approx(0.055 * times)

@@ -106,6 +106,12 @@ def test_a_bad_table_is_refused_by_its_key(table: dict[str, object]) -> None:
         map_resolution(table, "here")
 
 
+def test_voxels_are_as_large_as_the_robot_where_nobody_says() -> None:
+    assert map_resolution({}, "here") == 0.04
+    assert map_resolution({}, "here", 2.0) == 0.08
+    assert map_resolution({"resolution": 0.05}, "here", 2.0) == 0.05
+
+
 def test_voxels_that_are_too_small_for_the_course_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "mapped.toml"
     path.write_text(SCENARIO)

@@ -25,7 +25,8 @@ _SCALE = [
     "follow by their units: lengths are multiplied by s, times and speeds by the root of s, rates",
     "divided by it; angles and accelerations stay, and forces go with the mass. What is of the",
     "camera, of a sensor, of the world or of the numerics does not follow, and says so beside its",
-    "unit. With `--robot NAME` the list has a robot's own defaults.",
+    "unit; but the camera's noise in `1/m` goes with its focal length times baseline, over",
+    "`qrio`'s. With `--robot NAME` the list has a robot's own defaults.",
 ]
 
 

@@ -26,7 +26,8 @@ class Parameter:
         meaning: a sentence.
         source: paper and equation, where it comes from one.
         owner: whose it is (`camera`, `sensor`, `world`, `numerics`), where it does not follow the
-            robot's scale though its unit has a length or a time.
+            robot's scale though its unit has a length or a time; a camera's noise in 1/m goes
+            with its focal length and baseline.
         scales: whether its default follows the robot's scale.
         tuning: whether it stands under `tuning`, where few will want to turn it.
     """

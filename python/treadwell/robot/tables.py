@@ -25,7 +25,7 @@ def _unit(value: tuple[float, ...]) -> tuple[float, ...]:
 
 Name = Annotated[str, StringConstraints(min_length=1, max_length=100)]
 Share = Annotated[FiniteFloat, Field(ge=0.0, le=1.0)]
-Scale = Annotated[FiniteFloat, Field(ge=0.1, le=10.0)]
+Scale = Annotated[FiniteFloat, Field(ge=0.5, le=5.0)]
 """How large a robot is against `qrio`."""
 Length = Annotated[FiniteFloat, Field(ge=0.001, le=10.0)]
 """An extent of the robot, m."""

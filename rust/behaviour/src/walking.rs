@@ -19,7 +19,7 @@ mod step_off;
 mod stop;
 mod tick;
 mod track;
-mod tuning;
+pub(crate) mod tuning;
 mod turn;
 mod unknown;
 mod walk;

@@ -63,6 +63,7 @@ mod tests {
         let ten = Scale {
             length: 10.0,
             mass: 1000.0,
+            disparity: 10.0,
         };
         for table in tables() {
             for one in table.parameters() {
@@ -81,6 +82,7 @@ mod tests {
         let two = Scale {
             length: 2.0,
             mass: 8.0,
+            disparity: 2.0,
         };
         let given = Tables::from([
             ("fog".to_owned(), json!({"cell": 0.05})),
@@ -90,6 +92,8 @@ mod tests {
         assert_eq!(sized["fog"]["cell"], json!(0.05));
         assert_eq!(sized["fog"]["layer"], json!(0.08));
         assert_eq!(sized["fog"].get("max_range"), None);
+        let of_view = &sized["stairs"]["tuning"]["view"];
+        assert_eq!(of_view["height_noise"], json!(0.0125));
         assert_eq!(
             sized["walking"]["forward_speed"],
             json!(0.1 * 2.0_f64.sqrt())
@@ -99,8 +103,8 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_defaults_of_every_size_hold_their_bounds_and_each_other(length in 0.1..10.0, density in 0.3..3.0) {
-            let scale = Scale { length, mass: density * length.powi(3) };
+        fn the_defaults_of_every_size_hold_their_bounds_and_each_other(length in 0.5..5.0, density in 0.3..3.0) {
+            let scale = Scale { length, mass: density * length.powi(3), disparity: density };
             for table in tables() {
                 let defaults = table.defaults_at(&scale);
                 let usable = table.check(&defaults);

@@ -7,6 +7,9 @@ use crate::{BodyError, Description};
 /// Mass of `qrio`, kg.
 const QRIO_KG: f64 = 7.0;
 
+/// Of what is a metre away `qrio`'s camera sees so many pixels' disparity: focal length times baseline.
+const QRIO_DISPARITY_M: f64 = 6.08;
+
 impl Description {
     /// Refuses a size that no robot has.
     pub(crate) fn check_size(&self) -> Result<(), BodyError> {
@@ -20,15 +23,18 @@ impl Description {
         })
     }
 
-    /// Its length and its mass over those of `qrio`. A robot whose scale is 1 has every number of `qrio`'s, whatever its mass.
+    /// Its length, its mass and its camera's disparities over those of `qrio`. A robot whose scale is 1 has every number of `qrio`'s, whatever its mass.
     pub fn size(&self) -> Scale {
         if self.scale == 1.0 {
             return Scale::ONE;
         }
         let mass_kg: f64 = self.links.iter().map(|link| link.mass).sum();
+        let camera = &self.camera;
+        let disparity = camera.focal / camera.pool.max(1) as f64 * camera.stereo.baseline;
         Scale {
             length: self.scale,
             mass: mass_kg / QRIO_KG,
+            disparity: disparity / QRIO_DISPARITY_M,
         }
     }
 }

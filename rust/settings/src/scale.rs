@@ -2,11 +2,11 @@
 //!
 //! Robots that are alike move alike at equal Froude numbers: with lengths `s` times as large, times and speeds are `sqrt(s)` times
 //! as large, rates `1/sqrt(s)` times, and accelerations the same; forces go with the mass. What a unit has of length, time and force
-//! therefore says what becomes of a default. What is not the robot's own says so where it is declared, by its [`crate::Owner`].
+//! therefore says what becomes of a default. What is not the robot's own says so where it is declared, by its [`Owner`].
 
 use serde_json::{Map, Number, Value, json};
 
-use crate::Parameter;
+use crate::{Owner, Parameter};
 
 /// Tables that are read for a robot. The others are for data of whatever sensor.
 const OF_ROBOTS: [&str; 4] = [
@@ -16,6 +16,9 @@ const OF_ROBOTS: [&str; 4] = [
     "costs.traversability.",
 ];
 
+/// Of a camera's noise that grows with the square of the range: it goes with focal length and baseline.
+const RANGE_NOISE: &str = "1/m";
+
 /// How large a robot is against the one whose numbers the defaults are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
@@ -23,6 +26,8 @@ pub struct Scale {
     pub length: f64,
     /// Its mass over that one's.
     pub mass: f64,
+    /// By how many pixels its camera's two views differ at a range, over that one's: focal length times baseline.
+    pub disparity: f64,
 }
 
 /// Dimensions of a unit: quarters of the power of lengths, by which times are half as much, and the power of masses.
@@ -37,6 +42,7 @@ impl Scale {
     pub const ONE: Self = Self {
         length: 1.0,
         mass: 1.0,
+        disparity: 1.0,
     };
 
     /// What a number with this unit is multiplied by; `None` for a unit that is not known.
@@ -56,8 +62,16 @@ impl Scale {
 
     /// The default of a setting at this size; `None` where it is the same at any.
     pub fn default_of(&self, parameter: &Parameter) -> Option<Value> {
-        (*self != Self::ONE && parameter.scales)
-            .then(|| self.scaled(&parameter.default, parameter.unit))
+        let default = &parameter.default;
+        if *self == Self::ONE {
+            None
+        } else if parameter.scales {
+            Some(self.scaled(default, parameter.unit))
+        } else if parameter.owner == Some(Owner::Camera) && parameter.unit == RANGE_NOISE {
+            Some(json!(default.as_f64().map(|noise| noise / self.disparity)))
+        } else {
+            None
+        }
     }
 
     /// A value, or each of a list's with its part of the unit, at this size.
@@ -149,7 +163,7 @@ fn whole_power(base: f64, power: i32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ANY, Owner, Table, TableDescription, settings};
+    use crate::{ANY, Table, TableDescription, settings};
     use proptest::prelude::*;
 
     settings! {
@@ -159,6 +173,8 @@ mod tests {
             reach: f64 = 0.5, "m", ANY;
             /// A length of the camera's.
             range: f64 = 4.0, "m" of camera, ANY;
+            /// The noise of a range.
+            noise: f64 = 0.02, "1/m" of camera, ANY;
             /// A count.
             count: usize = 3, "m", ANY;
             /// A length that need not be.
@@ -181,7 +197,11 @@ mod tests {
     }
 
     fn sized(length: f64, mass: f64) -> Scale {
-        Scale { length, mass }
+        Scale {
+            length,
+            mass,
+            disparity: 4.0,
+        }
     }
 
     #[test]
@@ -224,7 +244,7 @@ mod tests {
         let table = TableDescription::of::<Kinds>();
         assert_eq!(
             table.defaults_at(&sized(2.0, 8.0)),
-            json!({"reach": 1.0, "aside": [-0.2, 0.2], "near": [0.2, 0.2]})
+            json!({"reach": 1.0, "noise": 0.005, "aside": [-0.2, 0.2], "near": [0.2, 0.2]})
         );
         assert_eq!(table.defaults_at(&Scale::ONE), json!({}));
         let other = TableDescription::of::<OfNoRobot>();

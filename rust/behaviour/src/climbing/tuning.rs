@@ -3,7 +3,9 @@
 mod feet;
 mod steps;
 
-use settings::{Bounds, NOT_NEGATIVE, POSITIVE, above_to, settings, within};
+use settings::{NOT_NEGATIVE, POSITIVE, settings, within};
+
+use crate::walking::tuning::{ANGLE, WAIT};
 
 pub(super) use feet::{
     AlignTuning, ApproachLegTuning, ClearanceTuning, DropOffTuning, FinishTuning, FootstepsTuning,
@@ -13,11 +15,6 @@ pub(super) use steps::{
     FlightTuning, InspectionTuning, MeasuredEdgeTuning, NextStepTuning, PlacementTuning,
     StepLookupTuning,
 };
-
-/// Times after which the robot goes on to something else: with a time without end it would wait for ever.
-const WAIT: Bounds = above_to(0.0, 600.0);
-/// Angles below the horizon, to the side, or between two headings.
-const ANGLE: Bounds = within(0.0, 3.2);
 
 settings! {
     /// Numbers behind the behaviours `stair_climbing` and `continuous`.

@@ -3,9 +3,9 @@
 use settings::{Bounds, NOT_NEGATIVE, POSITIVE, above_to, at_least, settings, within};
 
 /// Times after which the robot goes on to something else: with a time without end it would wait for ever.
-pub(super) const WAIT: Bounds = above_to(0.0, 600.0);
+pub(crate) const WAIT: Bounds = above_to(0.0, 600.0);
 /// Angles below the horizon, to the side, or between two headings.
-const ANGLE: Bounds = within(0.0, 3.2);
+pub(crate) const ANGLE: Bounds = within(0.0, 3.2);
 
 settings! {
     /// Numbers behind the behaviour `walking`.

@@ -14,7 +14,7 @@ settings! {
     /// How things that move are followed.
     pub struct TracksConfig("navigation.moving.tracks") {
         /// Standard deviation of a thing's middle, as a frame sees it.
-        sigma: f64 = 0.06, "m" of camera, POSITIVE;
+        sigma: f64 = 0.06, "m", POSITIVE;
         /// Standard deviation of the middle of a thing that the side of what the sensor sees cuts.
         cut_sigma: f64 = 0.3, "m" of world, POSITIVE;
         /// Standard deviation of the speed of a thing that was not seen before.

@@ -10,13 +10,13 @@ settings! {
         /// Seed of all that is drawn.
         seed: u64 = 0, "1", within(0.0, 9_007_199_254_740_992.0);
         /// Standard deviation of where a landmark is seen, along the line of sight, from near by.
-        range_noise: f64 = 0.05, "m" of camera, POSITIVE;
+        range_noise: f64 = 0.05, "m", POSITIVE;
         /// Standard deviation of the direction in which it is seen.
         bearing_noise: f64 = 0.03, "rad", within(1e-6, 1.0);
         /// The camera may be turned about the upright by so much, standard deviation: found on the way.
         camera_yaw: f64 = 0.02, "rad", at_least(0.0);
         /// Nearest and furthest distance at which one is looked for.
-        reach: [f64; 2] = [0.3, 2.0], "m" of camera, at_least(0.0);
+        reach: [f64; 2] = [0.3, 2.0], "m", at_least(0.0);
         /// How far apart two looks at a landmark are of which each counts: the middle of what is not round errs alike from places near by.
         apart: [f64; 2] = [0.4, 0.4], "m, rad", at_least(0.0);
         /// Growth of the odometry's error along x and y: per square root of a metre, of a radian turned, and of a second.

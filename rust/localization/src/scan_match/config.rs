@@ -10,7 +10,7 @@ settings! {
         /// Width of a beam: points seen in directions that differ by less are one.
         beam: f64 = 0.026, "rad", POSITIVE;
         /// What is further away than this is too blurred to match.
-        reach: f64 = 1.2, "m" of camera, POSITIVE;
+        reach: f64 = 1.2, "m", POSITIVE;
         /// A beam counts when what it hits rises at least so high above its lowest point.
         rise: f64 = 0.03, "m", POSITIVE;
         /// A beam counts when it has at least so many points.

@@ -22,17 +22,17 @@ settings! {
         /// What is nearer than this to the point below the camera is left out: it is the robot itself.
         nearest: f64 = 0.1, "m", POSITIVE;
         /// Points of one surface differ in distance by less than this near by.
-        depth: f64 = 0.02, "m" of camera, POSITIVE;
+        depth: f64 = 0.02, "m", POSITIVE;
         /// Far away, points of one surface differ in distance by less than so many standard deviations of it.
         depth_sigmas: f64 = 4.0, "1", POSITIVE;
         /// Pixels of a column that share one error: the height of the stereo matching window.
         window: f64 = 5.0, "px", POSITIVE;
         /// Standard deviation that is left of a beam's distance, however many points are averaged.
-        least_noise: f64 = 0.004, "m" of camera, POSITIVE;
+        least_noise: f64 = 0.004, "m", POSITIVE;
         /// Standard deviation of the place across a beam, as a share of the beam's width there.
         across: f64 = 0.3, "1", POSITIVE;
         /// Standard deviation that the place across a beam has at least.
-        least_across: f64 = 0.003, "m" of camera, POSITIVE;
+        least_across: f64 = 0.003, "m", POSITIVE;
     }
 }
 

@@ -38,7 +38,7 @@ settings! {
         /// one is asked. 1: the finest alone.
         pyramid: usize = 1, "1", within(1.0, 6.0), "004, section 36.3.1 (Montemerlo and Thrun 2004)";
         /// Standard deviation of a height that is measured at the sensor.
-        sigma: f64 = 0.004, "m" of camera, POSITIVE, "004, Fig. 36.10";
+        sigma: f64 = 0.004, "m", POSITIVE, "004, Fig. 36.10";
         /// How much it grows with each metre of range.
         sigma_per_metre: f64 = 0.01, "1", NOT_NEGATIVE, "004, Fig. 36.10";
         /// A height further from the cell's than so many standard deviations of both is that of another surface.
@@ -94,7 +94,7 @@ settings! {
         /// Of the mean difference from cell to cell, the share by which each may differ from it.
         uneven: f64 = 0.6, "1", NOT_NEGATIVE;
         /// What each may differ by in any case.
-        noise: f64 = 0.001, "m" of camera, NOT_NEGATIVE;
+        noise: f64 = 0.001, "m", NOT_NEGATIVE;
         /// Heights that are known less well do not tell.
         sure: f64 = 0.01, "m", POSITIVE;
         /// Ground that rises by less per metre is level.
