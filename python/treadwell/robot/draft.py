@@ -105,7 +105,14 @@ class Draft:
             self._imu(upper.torso),
             SENSES,
             self._camera(head, leg_m),
-            draft_motors(self.anatomy, self.legs, upper.trunk, fitting, not head.turns),
+            draft_motors(
+                self.anatomy.model,
+                self._qpos(stand),
+                self.legs,
+                upper.trunk,
+                fitting,
+                not head.turns,
+            ),
             self._gait(fitting, leg_m),
         ]
         return "".join(parts)

@@ -6,8 +6,10 @@ from dataclasses import replace
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from treadwell.robot.anatomy import Anatomy, FoundLeg, place_of
+from treadwell.robot.calm_servos import calmed
 from treadwell.robot.joint_roles import ANKLE_PITCH, HIP_PITCH, KNEE
 from treadwell.robot.loops import drivers, ties_of
 from treadwell.robot.motors_found import ARM_SHARE, REFERENCE_MASS_KG, Fitting, Servo
@@ -130,7 +132,8 @@ def moved_by(model: mujoco.MjModel, joint: int) -> float:
 
 
 def draft_motors(
-    anatomy: Anatomy,
+    model: mujoco.MjModel,
+    qpos: NDArray[np.float64],
     legs: Mapping[str, FoundLeg],
     trunk: Sequence[str],
     fitting: Fitting,
@@ -139,22 +142,30 @@ def draft_motors(
     """Return the tables of all motors.
 
     Args:
-        anatomy: of the model.
+        model: the compiled model.
+        qpos: (nq,) the stance.
         legs: both.
         trunk: joints between pelvis and torso.
         fitting: drafts one motor.
         camera: whether the camera gets a unit of its own that turns it.
     """
-    model = anatomy.model
     roles, tied = motor_roles(model, legs, trunk), ties_of(model)
-    groups: dict[tuple[str, Servo], list[str]] = {}
+    servos: dict[int, Servo] = {}
     for joint in sorted(drivers(model)):
         moved = moved_by(model, joint)
         for follower, tie in tied.items():
             if tie.leader == joint:
                 moved += tie.ratio**2 * moved_by(model, follower)
-        servo = fitting.servo(joint, roles.get(joint), moved)
-        rounded = _rounded(servo)
+        servos[joint] = fitting.servo(joint, roles.get(joint), moved)
+    dampings = calmed(
+        model,
+        qpos,
+        {joint: servo.kv for joint, servo in servos.items()},
+        {joint: servo.armature for joint, servo in servos.items() if servo.armature is not None},
+    )
+    groups: dict[tuple[str, Servo], list[str]] = {}
+    for joint, servo in servos.items():
+        rounded = _rounded(replace(servo, kv=dampings[joint]))
         groups.setdefault((_part(roles.get(joint)), rounded), []).append(model.joint(joint).name)
     text = _heading(fitting, model)
     counts: dict[str, int] = {}
