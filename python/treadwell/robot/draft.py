@@ -210,7 +210,7 @@ class Draft:
 
     def _head(self, head: FoundHead) -> str:
         pan, tilt, how = head.pan, head.tilt, head.how
-        if not head.turns:
+        if pan is None or tilt is None:
             pan, tilt = "camera_pan", "camera_tilt"
             how += "; it does not both pan and tilt: see [camera.mount]"
         return (
