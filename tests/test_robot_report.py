@@ -15,7 +15,7 @@ from treadwell.errors import InputError
 from treadwell.robot.report import report_on
 from treadwell.robot.template import write_template
 
-TABLES = ("robot", "body", "legs", "head", "camera", "motors")
+TABLES = ("robot", "body", "legs", "camera", "motors")
 
 
 @pytest.fixture(scope="module")
@@ -81,11 +81,13 @@ def test_a_pipe_in_a_robot_tomls_place_is_not_waited_for(tmp_path: Path) -> None
 def test_every_unknown_and_missing_key_has_its_line(tmp_path: Path) -> None:
     folder = qrio_copy(tmp_path)
     path = folder / "robot.toml"
-    text = path.read_text(encoding="utf-8").replace('tilt = "neck_tilt"', 'nod = "neck_tilt"')
+    text = path.read_text(encoding="utf-8").replace("height = 0.58", "tall = 0.58")
     path.write_text(text, encoding="utf-8")
     problems = report_on(folder)["problems"]
-    assert any("head.tilt: is missing" in line for line in problems)
-    assert any("head.nod: unknown key; allowed are pan, tilt" in line for line in problems)
+    assert any("body.height: is missing" in line for line in problems)
+    assert any(
+        "body.tall: unknown key; allowed are torso, radius, height" in line for line in problems
+    )
 
 
 def test_a_sole_that_is_not_where_the_foot_touches_is_noted(tmp_path: Path) -> None:

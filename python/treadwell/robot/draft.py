@@ -105,7 +105,14 @@ class Draft:
             self._imu(upper.torso),
             SENSES,
             self._camera(head, leg_m),
-            draft_motors(self.anatomy, self.legs, upper.trunk, fitting, not head.turns),
+            draft_motors(
+                self.anatomy.model,
+                self._qpos(stand),
+                self.legs,
+                upper.trunk,
+                fitting,
+                not head.turns,
+            ),
             self._gait(fitting, leg_m),
         ]
         return "".join(parts)
@@ -203,7 +210,7 @@ class Draft:
 
     def _head(self, head: FoundHead) -> str:
         pan, tilt, how = head.pan, head.tilt, head.how
-        if not head.turns:
+        if pan is None or tilt is None:
             pan, tilt = "camera_pan", "camera_tilt"
             how += "; it does not both pan and tilt: see [camera.mount]"
         return (
@@ -269,6 +276,7 @@ class Draft:
             motors,
             float(model.body_subtreemass[0]),
             leg_m / REFERENCE_LEG_M,
+            min(leg.sole.width for leg in self.legs.values()),
         )
         lines = "".join(f"{name} = {value:.2g}\n" for name, value in settings.items())
         return f"\n[gait]                          # what does not follow from the size\n{lines}"

@@ -6,8 +6,10 @@ from dataclasses import replace
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from treadwell.robot.anatomy import Anatomy, FoundLeg, place_of
+from treadwell.robot.calm_servos import calmed
 from treadwell.robot.joint_roles import ANKLE_PITCH, HIP_PITCH, KNEE
 from treadwell.robot.loops import drivers, ties_of
 from treadwell.robot.motors_found import ARM_SHARE, REFERENCE_MASS_KG, Fitting, Servo
@@ -19,7 +21,13 @@ REFERENCE_SPEED = 8.0
 ANKLE_GAIN, CLIMB_SPEED, CLIMB_LIFT_SPEED = 30.0, 0.195, 0.172
 """The gait's defaults for a scale of 1."""
 SLOW = 0.9
-"""Motors that are no slower than this share of that climb as the defaults do."""
+"""Motors no slower, and soles no narrower, than this share of the reference change nothing."""
+REFERENCE_SOLE_M = 0.075
+"""Width of the soles for which the gait's defaults are, at a scale of 1."""
+STEP_TIME_S, BOTH_FEET = 0.5, 0.25
+"""Of a step on such soles at a scale of 1, and the share of it on both feet."""
+QUICKENS, QUICKEST = 0.6, 0.7
+"""How a step's time goes with the width of the soles, as a power, and the least share of it."""
 TRUNK = "trunk"
 CAMERA_MOTORS = """[motors.camera]                 # of the unit that turns the camera
 joints = ["camera_pan", "camera_tilt"]
@@ -100,18 +108,20 @@ def peaks_of(
 
 
 def gait_of(
-    fitting: Fitting, motors: Mapping[str, int], mass_kg: float, scale: float
+    fitting: Fitting, motors: Mapping[str, int], mass_kg: float, scale: float, sole_m: float
 ) -> dict[str, float]:
-    """Return settings of the gait that follow from the servos, and not from the size alone.
+    """Return settings of the gait that follow from servos and soles, and not from the size alone.
 
     How fast an ankle yields to where the ground presses: by how far that moves for an angle. How
-    fast feet are put on steps: no faster than the legs' motors turn.
+    fast feet are put on steps: no faster than the legs' motors turn. On narrow soles steps are
+    quicker: what goes wrong in one grows for a shorter time.
 
     Args:
         fitting: drafts one motor.
         motors: the joints with the motors of a leg, by what they do.
         mass_kg: of the robot.
         scale: of the robot.
+        sole_m: width of a sole.
     """
     ankle = fitting.servo(motors[ANKLE_PITCH], ANKLE_PITCH, 1.0)
     stiffer = ankle.kp / REFERENCE_ANKLE / (mass_kg / REFERENCE_MASS_KG)
@@ -121,6 +131,10 @@ def gait_of(
     if slower < SLOW:
         found["climb_speed"] = CLIMB_SPEED * slower * scale**0.5
         found["climb_lift_speed"] = CLIMB_LIFT_SPEED * slower * scale**0.5
+    narrower = sole_m / (REFERENCE_SOLE_M * scale)
+    if narrower < SLOW:
+        step = STEP_TIME_S * scale**0.5 * max(QUICKEST, narrower**QUICKENS)
+        found |= {"step_time": step, "double_support": BOTH_FEET * step}
     return found
 
 
@@ -130,7 +144,8 @@ def moved_by(model: mujoco.MjModel, joint: int) -> float:
 
 
 def draft_motors(
-    anatomy: Anatomy,
+    model: mujoco.MjModel,
+    qpos: NDArray[np.float64],
     legs: Mapping[str, FoundLeg],
     trunk: Sequence[str],
     fitting: Fitting,
@@ -139,22 +154,30 @@ def draft_motors(
     """Return the tables of all motors.
 
     Args:
-        anatomy: of the model.
+        model: the compiled model.
+        qpos: (nq,) the stance.
         legs: both.
         trunk: joints between pelvis and torso.
         fitting: drafts one motor.
         camera: whether the camera gets a unit of its own that turns it.
     """
-    model = anatomy.model
     roles, tied = motor_roles(model, legs, trunk), ties_of(model)
-    groups: dict[tuple[str, Servo], list[str]] = {}
+    servos: dict[int, Servo] = {}
     for joint in sorted(drivers(model)):
         moved = moved_by(model, joint)
         for follower, tie in tied.items():
             if tie.leader == joint:
                 moved += tie.ratio**2 * moved_by(model, follower)
-        servo = fitting.servo(joint, roles.get(joint), moved)
-        rounded = _rounded(servo)
+        servos[joint] = fitting.servo(joint, roles.get(joint), moved)
+    dampings = calmed(
+        model,
+        qpos,
+        {joint: servo.kv for joint, servo in servos.items()},
+        {joint: servo.armature for joint, servo in servos.items() if servo.armature is not None},
+    )
+    groups: dict[tuple[str, Servo], list[str]] = {}
+    for joint, servo in servos.items():
+        rounded = _rounded(replace(servo, kv=dampings[joint]))
         groups.setdefault((_part(roles.get(joint)), rounded), []).append(model.joint(joint).name)
     text = _heading(fitting, model)
     counts: dict[str, int] = {}
