@@ -276,7 +276,6 @@ class Draft:
             motors,
             float(model.body_subtreemass[0]),
             leg_m / REFERENCE_LEG_M,
-            min(leg.sole.width for leg in self.legs.values()),
         )
         lines = "".join(f"{name} = {value:.2g}\n" for name, value in settings.items())
         return f"\n[gait]                          # what does not follow from the size\n{lines}"

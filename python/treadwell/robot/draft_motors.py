@@ -21,13 +21,7 @@ REFERENCE_SPEED = 8.0
 ANKLE_GAIN, CLIMB_SPEED, CLIMB_LIFT_SPEED = 30.0, 0.195, 0.172
 """The gait's defaults for a scale of 1."""
 SLOW = 0.9
-"""Motors no slower, and soles no narrower, than this share of the reference change nothing."""
-REFERENCE_SOLE_M = 0.075
-"""Width of the soles for which the gait's defaults are, at a scale of 1."""
-STEP_TIME_S, BOTH_FEET = 0.5, 0.25
-"""Of a step on such soles at a scale of 1, and the share of it on both feet."""
-QUICKENS, QUICKEST = 0.6, 0.7
-"""How a step's time goes with the width of the soles, as a power, and the least share of it."""
+"""Motors that are no slower than this share of that climb as the defaults do."""
 TRUNK = "trunk"
 CAMERA_MOTORS = """[motors.camera]                 # of the unit that turns the camera
 joints = ["camera_pan", "camera_tilt"]
@@ -108,20 +102,18 @@ def peaks_of(
 
 
 def gait_of(
-    fitting: Fitting, motors: Mapping[str, int], mass_kg: float, scale: float, sole_m: float
+    fitting: Fitting, motors: Mapping[str, int], mass_kg: float, scale: float
 ) -> dict[str, float]:
-    """Return settings of the gait that follow from servos and soles, and not from the size alone.
+    """Return settings of the gait that follow from the servos, and not from the size alone.
 
     How fast an ankle yields to where the ground presses: by how far that moves for an angle. How
-    fast feet are put on steps: no faster than the legs' motors turn. On narrow soles steps are
-    quicker: what goes wrong in one grows for a shorter time.
+    fast feet are put on steps: no faster than the legs' motors turn.
 
     Args:
         fitting: drafts one motor.
         motors: the joints with the motors of a leg, by what they do.
         mass_kg: of the robot.
         scale: of the robot.
-        sole_m: width of a sole.
     """
     ankle = fitting.servo(motors[ANKLE_PITCH], ANKLE_PITCH, 1.0)
     stiffer = ankle.kp / REFERENCE_ANKLE / (mass_kg / REFERENCE_MASS_KG)
@@ -131,10 +123,6 @@ def gait_of(
     if slower < SLOW:
         found["climb_speed"] = CLIMB_SPEED * slower * scale**0.5
         found["climb_lift_speed"] = CLIMB_LIFT_SPEED * slower * scale**0.5
-    narrower = sole_m / (REFERENCE_SOLE_M * scale)
-    if narrower < SLOW:
-        step = STEP_TIME_S * scale**0.5 * max(QUICKEST, narrower**QUICKENS)
-        found |= {"step_time": step, "double_support": BOTH_FEET * step}
     return found
 
 
