@@ -25,7 +25,11 @@ impl GaitConfig {
         let is_said = |key: &str| said.get(key).is_some();
         if !is_said("step_time") {
             let quickest_s = self.tuning.sole_fit.quickest * self.step_time;
-            self.step_time = (self.step_time + libm::log(share) / omega).max(quickest_s);
+            let step_s = (self.step_time + libm::log(share) / omega).max(quickest_s);
+            if !is_said("double_support") {
+                self.double_support *= step_s / self.step_time;
+            }
+            self.step_time = step_s;
         }
         if !is_said("sole_margin") {
             self.sole_margin *= share;
