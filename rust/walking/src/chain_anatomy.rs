@@ -14,6 +14,9 @@ const STRAIGHT: f64 = 0.1;
 /// Weight of a place that is likely, where the axes leave a direction open.
 const LIKELY: f64 = 1e-6;
 
+/// A hinge in the torso's frame, at some angles: the unit vector along its axis, and a point of that, m.
+pub(crate) type Axis = (Vector3<f64>, Vector3<f64>);
+
 /// A hinge of a chain, in the torso's frame at joint angles zero.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LegHinge {
@@ -114,10 +117,7 @@ impl LegHinges {
     pub(crate) fn posed(
         &self,
         angles_rad: &[f64; MOST_LEG_JOINTS],
-    ) -> (
-        [(Vector3<f64>, Vector3<f64>); MOST_LEG_JOINTS],
-        Isometry3<f64>,
-    ) {
+    ) -> ([Axis; MOST_LEG_JOINTS], Isometry3<f64>) {
         let mut posed = [(Vector3::zeros(), Vector3::zeros()); MOST_LEG_JOINTS];
         let mut turned = Isometry3::identity();
         for (slot, hinge) in self.all().iter().enumerate() {
