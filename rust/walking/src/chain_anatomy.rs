@@ -15,7 +15,7 @@ const STRAIGHT: f64 = 0.1;
 const LIKELY: f64 = 1e-6;
 
 /// A hinge in the torso's frame, at some angles: the unit vector along its axis, and a point of that, m.
-pub(crate) type Axis = (Vector3<f64>, Vector3<f64>);
+pub(crate) type HingeAxis = (Vector3<f64>, Vector3<f64>);
 
 /// A hinge of a chain, in the torso's frame at joint angles zero.
 #[derive(Debug, Clone, Copy)]
@@ -117,7 +117,7 @@ impl LegHinges {
     pub(crate) fn posed(
         &self,
         angles_rad: &[f64; MOST_LEG_JOINTS],
-    ) -> ([Axis; MOST_LEG_JOINTS], Isometry3<f64>) {
+    ) -> ([HingeAxis; MOST_LEG_JOINTS], Isometry3<f64>) {
         let mut posed = [(Vector3::zeros(), Vector3::zeros()); MOST_LEG_JOINTS];
         let mut turned = Isometry3::identity();
         for (slot, hinge) in self.all().iter().enumerate() {
