@@ -154,6 +154,11 @@ impl PyWalker {
         self.command.arms = if raised { Arms::Raised } else { Arms::AtRest };
     }
 
+    #[getter]
+    fn telling(&self) -> String {
+        self.walker.debug()
+    }
+
     /// Whether it stands still on both soles.
     #[getter]
     fn standing(&self) -> bool {

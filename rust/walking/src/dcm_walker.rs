@@ -11,6 +11,7 @@ use crate::ankles::Ankles;
 use crate::arms::ArmsControl;
 use crate::balance::{Balance, Sensed};
 use crate::capture::Capture;
+use crate::catching::{Catching, Falling};
 use crate::config::GaitConfig;
 use crate::error::WalkError;
 use crate::feet::FeetControl;
@@ -48,6 +49,7 @@ pub struct DcmWalker {
     feet_control: FeetControl,
     ankles: Ankles,
     capture: Capture,
+    catching: Catching,
     posture: Posture,
     com: Vector2<f64>,
     reference: GaitReference,
@@ -76,7 +78,8 @@ impl DcmWalker {
             soles: Soles::new(body, config.sole_margin),
             feet_control: FeetControl::new(&config),
             ankles: Ankles::new(&config, body),
-            capture: Capture::new(&config, planner),
+            capture: Capture::new(&config, planner.clone()),
+            catching: Catching::new(&config, planner),
             posture: Posture::new(body, &config)?,
             targets: JointTargets {
                 positions_rad: rest,
@@ -118,15 +121,26 @@ impl DcmWalker {
         self.sense(observation, state, passed_s);
         let error = self.balance.dcm() - self.reference.dcm;
         let omega = self.balance.omega;
-        let rate = self
-            .capture
-            .adjust(&mut self.gait, &self.soles, &error, omega, passed_s);
         self.gait.catch_tipping(&error);
         let felt = self.feel(observation, state);
         let frame = self.frame(&felt);
         self.list.take(&command.motion, &mut self.gait, frame);
         let relief = Relief::new(slopes, frame.planar, &self.config.tuning.relief);
         let task = self.list.task(&command.motion, &self.gait, relief);
+        let falling = Falling {
+            dcm: self.balance.dcm(),
+            reference: self.reference.dcm,
+            omega,
+            soles: &self.soles,
+            task,
+            loads_n: felt.loads_n,
+            soles_m: felt.soles_m,
+            passed_s,
+        };
+        let (gait, soles) = (&mut self.gait, &self.soles);
+        let caught = self.catching.step(gait, &falling);
+        let rate = caught
+            .unwrap_or_else(|| self.capture.adjust(gait, soles, &error, omega, passed_s));
         self.gait
             .advance(passed_s * rate, task, &KnownGround::Felt(felt));
         self.met = self.gait.take_met().map(|met| met.seen_from(&frame.planar));

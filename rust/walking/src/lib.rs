@@ -10,6 +10,7 @@ mod ankles;
 mod arms;
 pub mod balance;
 pub mod capture;
+mod catching;
 mod config;
 pub mod dcm;
 mod dcm_walker;

@@ -24,6 +24,8 @@ settings! {
         preview: PreviewTuning;
         /// How steps are moved to catch a push.
         capture: CaptureTuning;
+        /// Steps that catch a push which ankles cannot hold.
+        catching: CatchingTuning;
         /// How an ankle yields.
         ankles: AnklesTuning;
         /// The path of the swing foot.
@@ -138,6 +140,44 @@ settings! {
         speed: f64 = 1.0, "m/s", above_to(0.0, 10.0);
         /// Growth of the error until the landing, less 1, that is reckoned with at least, at the end of a step.
         least_growth: f64 = 0.01, "1", POSITIVE;
+    }
+}
+
+settings! {
+    /// Steps that catch a push which ankles cannot hold: sooner than in a walk, and farther.
+    pub struct CatchingTuning("gait.tuning.catching") {
+        /// Error of the divergent component of motion from which on the robot counts as pushed, as a share of half a sole's length.
+        begins: f64 = 0.7, "1", POSITIVE;
+        /// Time for which the error has to be so large: a start or a landing jolts for a moment.
+        sure_time: f64 = 0.025, "s", within(0.0, 60.0);
+        /// Error below which a push is over, as a share of half a sole's length.
+        ends: f64 = 0.3, "1", POSITIVE;
+        /// Time that the error has to be so small.
+        calm_time: f64 = 0.3, "s", within(0.0, 60.0);
+        /// How far outside of what both feet hold a foot is lifted at once, as a share of half a sole's length.
+        outside: f64 = 0.12, "1", NOT_NEGATIVE;
+        /// Share of the swing after which the landing stays where it is.
+        committed: f64 = 0.85, "1", SHARE;
+        /// Share of the swing after which a load on the foot is its landing.
+        lands: f64 = 0.4, "1", SHARE;
+        /// Time behind a landing before a foot is lifted again.
+        settle: f64 = 0.03, "s", within(0.0, 60.0);
+        /// How fast a landing is moved, in heights of the hips for each time constant of the pendulum.
+        speed: f64 = 1.5, "1", POSITIVE;
+        /// How many times faster than in a walk a foot goes at most.
+        hurry: f64 = 1.6, "1", at_least(1.0);
+        /// How much later than planned a foot lands at most, in time constants of the pendulum.
+        wait: f64 = 1.5, "1", NOT_NEGATIVE;
+        /// Among how many times that of the landing is chosen.
+        times: usize = 12, "1", within(2.0, 1000.0);
+        /// What moving a landing costs against missing what it had to catch.
+        moving: f64 = 0.2, "1", NOT_NEGATIVE;
+        /// What another time costs, half a sole's length for each time constant of the pendulum.
+        shifting: f64 = 0.1, "1", NOT_NEGATIVE;
+        /// Longest step ahead or back, in heights of the hips.
+        along: f64 = 0.75, "1", POSITIVE;
+        /// Largest extra distance between the feet, in heights of the hips.
+        aside: f64 = 0.45, "1", POSITIVE;
     }
 }
 
