@@ -66,6 +66,8 @@ struct Catch {
     left_s: f64,
     /// How far the step misses what it had to catch, and what it takes, m.
     cost_m: f64,
+    /// How far over the outer edge of the sole that stands the robot falls whenever it lands, m.
+    outwards_m: f64,
 }
 
 impl Catching {
@@ -97,7 +99,6 @@ impl Catching {
                 duration_s,
                 swing,
             } => {
-                self.held_s = 0.0;
                 Some(self.on_one(gait, falling, swing, elapsed_s, duration_s))
             }
         }
@@ -107,9 +108,9 @@ impl Catching {
     fn look(&mut self, gait: &Gait, falling: &Falling<'_>) {
         let tuning = &self.config.tuning.catching;
         let error_m = (falling.dcm - falling.reference).norm();
-        let sole_m = self.planner.half_sole_m().x;
+        let leg_m = self.planner.leg_m;
         let calm_s = |before_s: f64| {
-            if error_m > tuning.ends * sole_m {
+            if error_m > tuning.ends * leg_m {
                 0.0
             } else {
                 before_s + falling.passed_s
@@ -117,7 +118,7 @@ impl Catching {
         };
         self.state = match self.state {
             _ if !gait.may_catch() => Watch::Settling(0.0),
-            Watch::Ready(off_s) if error_m > tuning.begins * sole_m => {
+            Watch::Ready(off_s) if error_m > tuning.begins * leg_m => {
                 let off_s = off_s + falling.passed_s;
                 if off_s > tuning.sure_time {
                     Watch::Pushed(0.0)
@@ -184,7 +185,7 @@ impl Catching {
 
     /// While a foot is on its way: moves where and when it lands.
     fn on_one(
-        &self,
+        &mut self,
         gait: &mut Gait,
         falling: &Falling<'_>,
         swing: Swing,
@@ -207,15 +208,52 @@ impl Catching {
             return left_s / falling.passed_s;
         }
         let catch = self.best(gait, falling, &swing, left_s);
+        if catch.outwards_m > 0.0 && self.held_s <= self.config.capture_patience {
+            return self.counterweigh(gait, falling, swing, elapsed_s / duration_s);
+        }
         if let GaitPhase::Single { swing, .. } = &mut gait.phase
             && elapsed_s < tuning.committed * duration_s
         {
-            let most = tuning.speed * falling.omega * self.planner.leg_m * falling.passed_s;
-            let to = &mut swing.to.planar;
-            to.x_m += (catch.to.x_m - to.x_m).clamp(-most, most);
-            to.y_m += (catch.to.y_m - to.y_m).clamp(-most, most);
+            self.move_landing(swing, &catch.to, falling);
         }
         left_s / catch.left_s
+    }
+
+    /// The robot falls over the outer edge of the sole that stands, where no step helps: the foot in the air goes out to the other side
+    /// and waits there. What it takes of the robot's momentum, the body is given back.
+    fn counterweigh(
+        &mut self,
+        gait: &mut Gait,
+        falling: &Falling<'_>,
+        mut swing: Swing,
+        share: f64,
+    ) -> f64 {
+        let tuning = &self.config.tuning.catching;
+        let stance = gait.feet[swing.side.other().index()].planar;
+        let mut out = stance.relative(&swing.planned.planar);
+        out.y_m = swing.side.sign() * (self.config.stance_width + self.planner.leg_m);
+        let out = self.planner.within_catch(&stance, &stance.compose(&out), swing.side);
+        self.move_landing(&mut swing, &out, falling);
+        if let GaitPhase::Single { swing: moved, .. } = &mut gait.phase {
+            *moved = swing;
+        }
+        if share < tuning.out_share {
+            return 1.0;
+        }
+        self.held_s += falling.passed_s;
+        0.0
+    }
+
+    fn move_landing(&self, swing: &mut Swing, goal: &PlanarPose, falling: &Falling<'_>) {
+        let most = self.speed_mps(falling, self.config.tuning.catching.speed) * falling.passed_s;
+        let to = &mut swing.to.planar;
+        to.x_m += (goal.x_m - to.x_m).clamp(-most, most);
+        to.y_m += (goal.y_m - to.y_m).clamp(-most, most);
+    }
+
+    /// A speed of so many heights of the hips for each time constant of the pendulum.
+    fn speed_mps(&self, falling: &Falling<'_>, speed: f64) -> f64 {
+        speed * falling.omega * self.planner.leg_m
     }
 
     /// The best place and time for a foot to land that has `left_s` to go by its clock.
@@ -232,7 +270,11 @@ impl Catching {
         let ahead = landed - to;
         let (soonest_s, latest_s) = (left_s / tuning.hurry, left_s + tuning.wait / falling.omega);
         let times = tuning.times.max(2);
+        let here = falling.soles_m[swing.side.index()].xy();
+        let stride_mps = self.speed_mps(falling, tuning.stride);
+        let (nearest_m, _) = self.planner.lateral_limits_m(0.0);
         let mut best: Option<Catch> = None;
+        let mut outwards_m = f64::INFINITY;
         for index in 0..times {
             let share = index as f64 / (times - 1) as f64;
             let time_s = soonest_s + (latest_s - soonest_s) * share;
@@ -240,10 +282,13 @@ impl Catching {
             let wanted = (falling.dcm * growth - planned - ahead) / (growth - 1.0).max(1e-3);
             let zmp = falling.soles.nearest(foot, stance, &wanted);
             let goal = zmp + (falling.dcm - zmp) * growth - ahead;
+            let across_m = foot.planar.inverse().apply(goal.x, goal.y).1 * swing.side.sign();
+            outwards_m = outwards_m.min(nearest_m - tuning.out * self.planner.leg_m - across_m);
             let place = PlanarPose::new(goal.x, goal.y, swing.planned.planar.yaw_rad);
-            let place = self
-                .planner
-                .within_catch(&foot.planar, &place, swing.side);
+            let mut place = self.planner.within_catch(&foot.planar, &place, swing.side);
+            let way = Vector2::new(place.x_m, place.y_m) - here;
+            let short = (stride_mps * time_s / way.norm().max(1e-9)).min(1.0);
+            (place.x_m, place.y_m) = (here.x + way.x * short, here.y + way.y * short);
             let missed_m = (goal - Vector2::new(place.x_m, place.y_m)).norm();
             let moved_m = place.distance_m(&swing.planned.planar);
             let shifted_m = (time_s - left_s).abs() * falling.omega * self.planner.half_sole_m().x;
@@ -253,14 +298,17 @@ impl Catching {
                     to: place,
                     left_s: time_s,
                     cost_m,
+                    outwards_m: 0.0,
                 });
             }
         }
-        best.unwrap_or(Catch {
+        let none = Catch {
             to: swing.to.planar,
             left_s,
             cost_m: f64::INFINITY,
-        })
+            outwards_m,
+        };
+        best.map_or(none, |best| Catch { outwards_m, ..best })
     }
 }
 

@@ -146,12 +146,12 @@ settings! {
 settings! {
     /// Steps that catch a push which ankles cannot hold: sooner than in a walk, and farther.
     pub struct CatchingTuning("gait.tuning.catching") {
-        /// Error of the divergent component of motion from which on the robot counts as pushed, as a share of half a sole's length.
-        begins: f64 = 0.7, "1", POSITIVE;
+        /// Error of the divergent component of motion from which on the robot counts as pushed, in heights of the hips.
+        begins: f64 = 0.15, "1", POSITIVE;
         /// Time for which the error has to be so large: a start or a landing jolts for a moment.
         sure_time: f64 = 0.025, "s", within(0.0, 60.0);
-        /// Error below which a push is over, as a share of half a sole's length.
-        ends: f64 = 0.3, "1", POSITIVE;
+        /// Error below which a push is over, in heights of the hips.
+        ends: f64 = 0.06, "1", POSITIVE;
         /// Time that the error has to be so small.
         calm_time: f64 = 0.3, "s", within(0.0, 60.0);
         /// How far outside of what both feet hold a foot is lifted at once, as a share of half a sole's length.
@@ -164,6 +164,12 @@ settings! {
         settle: f64 = 0.03, "s", within(0.0, 60.0);
         /// How fast a landing is moved, in heights of the hips for each time constant of the pendulum.
         speed: f64 = 1.5, "1", POSITIVE;
+        /// How fast a foot gets to another place on average, in heights of the hips for each time constant of the pendulum.
+        stride: f64 = 0.7, "1", POSITIVE;
+        /// How far over the outer edge a foot in the air is told to be a counterweight, in heights of the hips.
+        out: f64 = 0.02, "1", NOT_NEGATIVE;
+        /// Share of the swing at which a foot that is a counterweight waits.
+        out_share: f64 = 0.5, "1", SHARE;
         /// How many times faster than in a walk a foot goes at most.
         hurry: f64 = 1.6, "1", at_least(1.0);
         /// How much later than planned a foot lands at most, in time constants of the pendulum.
