@@ -154,11 +154,6 @@ impl PyWalker {
         self.command.arms = if raised { Arms::Raised } else { Arms::AtRest };
     }
 
-    #[getter]
-    fn telling(&self) -> String {
-        self.walker.debug()
-    }
-
     /// Whether it stands still on both soles.
     #[getter]
     fn standing(&self) -> bool {

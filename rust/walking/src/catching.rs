@@ -1,26 +1,23 @@
 //! Catching a push that ankles alone cannot hold: a step at once from a stand, and of a step that is under way both place and time.
 //!
-//! After Khadiv et al., "Walking control based on step timing adaptation" (IEEE T-RO 36, 2020): where the divergent component of
-//! motion will be when the foot lands says where the foot has to land, and a step that comes sooner has less to catch. Place and
-//! time are sought over a few times, not by a quadratic programme: there is one number to choose. Nothing here acts on a robot that
-//! is not pushed.
+//! Nothing here acts on a robot that is not pushed: the divergent component of motion has to be farther off its reference, and for
+//! longer, than a walk or a landing ever puts it. Where and when a foot lands, [`crate::landing_search`] says.
 
 use geometry::PlanarPose;
-use nalgebra::{Vector2, Vector3};
 use robot::Side;
 
 use crate::config::GaitConfig;
 use crate::footsteps::FootstepPlanner;
 use crate::gait::Gait;
+use crate::landing_search::{Falling, LandingSearch};
 use crate::phase::{FootPose, GaitPhase, Manner, Swing};
-use crate::support::Soles;
 use crate::task::Task;
 
 /// Steps that catch a push.
 #[derive(Debug, Clone)]
 pub(crate) struct Catching {
     config: GaitConfig,
-    planner: FootstepPlanner,
+    search: LandingSearch,
     state: Watch,
     held_s: f64,
 }
@@ -36,46 +33,12 @@ enum Watch {
     Pushed(f64),
 }
 
-/// What a tick knows of the balance.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Falling<'a> {
-    /// The measured divergent component of motion, m.
-    pub(crate) dcm: Vector2<f64>,
-    /// Its reference, m.
-    pub(crate) reference: Vector2<f64>,
-    /// Natural frequency of the pendulum, 1/s.
-    pub(crate) omega: f64,
-    /// Where soles push.
-    pub(crate) soles: &'a Soles,
-    /// What the legs have to do.
-    pub(crate) task: Task<'a>,
-    /// Loads on the feet, N.
-    pub(crate) loads_n: [f64; 2],
-    /// Where the soles are, m.
-    pub(crate) soles_m: [Vector3<f64>; 2],
-    /// Time since the last tick, s.
-    pub(crate) passed_s: f64,
-}
-
-/// A step as it may be taken.
-#[derive(Debug, Clone, Copy)]
-struct Catch {
-    /// Where the foot lands.
-    to: PlanarPose,
-    /// Time until then, s.
-    left_s: f64,
-    /// How far the step misses what it had to catch, and what it takes, m.
-    cost_m: f64,
-    /// How far over the outer edge of the sole that stands the robot falls whenever it lands, m.
-    outwards_m: f64,
-}
-
 impl Catching {
     /// For this gait.
     pub(crate) fn new(config: &GaitConfig, planner: FootstepPlanner) -> Self {
         Self {
             config: config.clone(),
-            planner,
+            search: LandingSearch::new(config, planner),
             state: Watch::Settling(0.0),
             held_s: 0.0,
         }
@@ -98,9 +61,7 @@ impl Catching {
                 elapsed_s,
                 duration_s,
                 swing,
-            } => {
-                Some(self.on_one(gait, falling, swing, elapsed_s, duration_s))
-            }
+            } => Some(self.on_one(gait, falling, swing, elapsed_s, duration_s)),
         }
     }
 
@@ -108,7 +69,7 @@ impl Catching {
     fn look(&mut self, gait: &Gait, falling: &Falling<'_>) {
         let tuning = &self.config.tuning.catching;
         let error_m = (falling.dcm - falling.reference).norm();
-        let leg_m = self.planner.leg_m;
+        let leg_m = self.search.planner.leg_m;
         let calm_s = |before_s: f64| {
             if error_m > tuning.ends * leg_m {
                 0.0
@@ -152,7 +113,7 @@ impl Catching {
             return 1.0;
         }
         let held = falling.soles.on_both(&gait.feet, &carry, &falling.dcm).zmp;
-        if (falling.dcm - held).norm() <= tuning.outside * self.planner.half_sole_m().x {
+        if (falling.dcm - held).norm() <= tuning.outside * self.search.planner.half_sole_m().x {
             if self.held_s > self.config.capture_patience || gait.is_standing() {
                 return 1.0;
             }
@@ -163,7 +124,7 @@ impl Catching {
             let mut trial = gait.clone();
             let swing = trial.step_in_place(side, falling.task);
             let in_air_s = swing.in_air_s(&self.config);
-            let catch = self.best(&trial, falling, &swing, in_air_s);
+            let catch = self.search.best(&trial, falling, &swing, in_air_s);
             (trial, swing, catch)
         });
         let [left, right] = steps;
@@ -207,7 +168,7 @@ impl Catching {
             }
             return left_s / falling.passed_s;
         }
-        let catch = self.best(gait, falling, &swing, left_s);
+        let catch = self.search.best(gait, falling, &swing, left_s);
         if catch.outwards_m > 0.0 && self.held_s <= self.config.capture_patience {
             return self.counterweigh(gait, falling, swing, elapsed_s / duration_s);
         }
@@ -229,10 +190,7 @@ impl Catching {
         share: f64,
     ) -> f64 {
         let tuning = &self.config.tuning.catching;
-        let stance = gait.feet[swing.side.other().index()].planar;
-        let mut out = stance.relative(&swing.planned.planar);
-        out.y_m = swing.side.sign() * (self.config.stance_width + self.planner.leg_m);
-        let out = self.planner.within_catch(&stance, &stance.compose(&out), swing.side);
+        let out = self.search.far_out(gait, &swing);
         self.move_landing(&mut swing, &out, falling);
         if let GaitPhase::Single { swing: moved, .. } = &mut gait.phase {
             *moved = swing;
@@ -245,70 +203,13 @@ impl Catching {
     }
 
     fn move_landing(&self, swing: &mut Swing, goal: &PlanarPose, falling: &Falling<'_>) {
-        let most = self.speed_mps(falling, self.config.tuning.catching.speed) * falling.passed_s;
+        let most = self
+            .search
+            .speed_mps(falling, self.config.tuning.catching.speed)
+            * falling.passed_s;
         let to = &mut swing.to.planar;
         to.x_m += (goal.x_m - to.x_m).clamp(-most, most);
         to.y_m += (goal.y_m - to.y_m).clamp(-most, most);
-    }
-
-    /// A speed of so many heights of the hips for each time constant of the pendulum.
-    fn speed_mps(&self, falling: &Falling<'_>, speed: f64) -> f64 {
-        speed * falling.omega * self.planner.leg_m
-    }
-
-    /// The best place and time for a foot to land that has `left_s` to go by its clock.
-    fn best(&self, gait: &Gait, falling: &Falling<'_>, swing: &Swing, left_s: f64) -> Catch {
-        let tuning = &self.config.tuning.catching;
-        let stance = swing.side.other();
-        let foot = &gait.feet[stance.index()];
-        let middle = gait.stance_point(stance);
-        let reference = gait.reference(falling.omega, falling.task).dcm;
-        let grown = libm::exp(falling.omega * left_s);
-        let landed = middle + (reference - middle) * grown;
-        let to = Vector2::new(swing.to.planar.x_m, swing.to.planar.y_m);
-        let planned = Vector2::new(swing.planned.planar.x_m, swing.planned.planar.y_m);
-        let ahead = landed - to;
-        let (soonest_s, latest_s) = (left_s / tuning.hurry, left_s + tuning.wait / falling.omega);
-        let times = tuning.times.max(2);
-        let here = falling.soles_m[swing.side.index()].xy();
-        let stride_mps = self.speed_mps(falling, tuning.stride);
-        let (nearest_m, _) = self.planner.lateral_limits_m(0.0);
-        let mut best: Option<Catch> = None;
-        let mut outwards_m = f64::INFINITY;
-        for index in 0..times {
-            let share = index as f64 / (times - 1) as f64;
-            let time_s = soonest_s + (latest_s - soonest_s) * share;
-            let growth = libm::exp(falling.omega * time_s);
-            let wanted = (falling.dcm * growth - planned - ahead) / (growth - 1.0).max(1e-3);
-            let zmp = falling.soles.nearest(foot, stance, &wanted);
-            let goal = zmp + (falling.dcm - zmp) * growth - ahead;
-            let across_m = foot.planar.inverse().apply(goal.x, goal.y).1 * swing.side.sign();
-            outwards_m = outwards_m.min(nearest_m - tuning.out * self.planner.leg_m - across_m);
-            let place = PlanarPose::new(goal.x, goal.y, swing.planned.planar.yaw_rad);
-            let mut place = self.planner.within_catch(&foot.planar, &place, swing.side);
-            let way = Vector2::new(place.x_m, place.y_m) - here;
-            let short = (stride_mps * time_s / way.norm().max(1e-9)).min(1.0);
-            (place.x_m, place.y_m) = (here.x + way.x * short, here.y + way.y * short);
-            let missed_m = (goal - Vector2::new(place.x_m, place.y_m)).norm();
-            let moved_m = place.distance_m(&swing.planned.planar);
-            let shifted_m = (time_s - left_s).abs() * falling.omega * self.planner.half_sole_m().x;
-            let cost_m = missed_m + tuning.moving * moved_m + tuning.shifting * shifted_m;
-            if best.is_none_or(|best| cost_m < best.cost_m) {
-                best = Some(Catch {
-                    to: place,
-                    left_s: time_s,
-                    cost_m,
-                    outwards_m: 0.0,
-                });
-            }
-        }
-        let none = Catch {
-            to: swing.to.planar,
-            left_s,
-            cost_m: f64::INFINITY,
-            outwards_m,
-        };
-        best.map_or(none, |best| Catch { outwards_m, ..best })
     }
 }
 
@@ -347,3 +248,7 @@ impl Gait {
         swing
     }
 }
+
+#[cfg(test)]
+#[path = "catching_tests.rs"]
+mod tests;

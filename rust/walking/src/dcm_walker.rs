@@ -11,7 +11,7 @@ use crate::ankles::Ankles;
 use crate::arms::ArmsControl;
 use crate::balance::{Balance, Sensed};
 use crate::capture::Capture;
-use crate::catching::{Catching, Falling};
+use crate::catching::Catching;
 use crate::config::GaitConfig;
 use crate::error::WalkError;
 use crate::feet::FeetControl;
@@ -19,6 +19,7 @@ use crate::felt::{Felt, KnownGround};
 use crate::footsteps::FootstepPlanner;
 use crate::gait::Gait;
 use crate::gaze::HeadControl;
+use crate::landing_search::Falling;
 use crate::met::Met;
 use crate::pelvis::Course;
 use crate::phase::GaitReference;
@@ -139,8 +140,8 @@ impl DcmWalker {
         };
         let (gait, soles) = (&mut self.gait, &self.soles);
         let caught = self.catching.step(gait, &falling);
-        let rate = caught
-            .unwrap_or_else(|| self.capture.adjust(gait, soles, &error, omega, passed_s));
+        let rate =
+            caught.unwrap_or_else(|| self.capture.adjust(gait, soles, &error, omega, passed_s));
         self.gait
             .advance(passed_s * rate, task, &KnownGround::Felt(felt));
         self.met = self.gait.take_met().map(|met| met.seen_from(&frame.planar));

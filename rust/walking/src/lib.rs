@@ -22,6 +22,7 @@ pub mod footsteps;
 pub mod gait;
 mod gaze;
 mod landing;
+mod landing_search;
 pub mod leg;
 mod leg_geometry;
 mod listed;

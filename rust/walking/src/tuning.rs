@@ -171,19 +171,19 @@ settings! {
         /// Share of the swing at which a foot that is a counterweight waits.
         out_share: f64 = 0.5, "1", SHARE;
         /// How many times faster than in a walk a foot goes at most.
-        hurry: f64 = 1.6, "1", at_least(1.0);
+        hurry: f64 = 2.0, "1", at_least(1.0);
         /// How much later than planned a foot lands at most, in time constants of the pendulum.
         wait: f64 = 1.5, "1", NOT_NEGATIVE;
         /// Among how many times that of the landing is chosen.
         times: usize = 12, "1", within(2.0, 1000.0);
         /// What moving a landing costs against missing what it had to catch.
-        moving: f64 = 0.2, "1", NOT_NEGATIVE;
+        moving: f64 = 0.05, "1", NOT_NEGATIVE;
         /// What another time costs, half a sole's length for each time constant of the pendulum.
         shifting: f64 = 0.1, "1", NOT_NEGATIVE;
         /// Longest step ahead or back, in heights of the hips.
         along: f64 = 0.75, "1", POSITIVE;
         /// Largest extra distance between the feet, in heights of the hips.
-        aside: f64 = 0.45, "1", POSITIVE;
+        aside: f64 = 0.3, "1", POSITIVE;
     }
 }
 

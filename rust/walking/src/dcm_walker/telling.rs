@@ -69,18 +69,6 @@ impl Walker for DcmWalker {
 }
 
 impl DcmWalker {
-    /// DEBUG
-    pub fn debug(&self) -> String {
-        let d = self.balance.dcm() * 1e3;
-        let e = (self.balance.dcm() - self.reference.dcm) * 1e3;
-        let ph = match &self.gait.phase {
-            GaitPhase::Standing => "stand".to_owned(),
-            GaitPhase::Double { elapsed_s, duration_s, next, .. } => format!("D {:.2}/{:.2} {:?}", elapsed_s, duration_s, next.map(|n| n.side)),
-            GaitPhase::Single { elapsed_s, duration_s, swing } => format!("S {:.2}/{:.2} {:?} {:?} to {:.0} {:.0} (pl {:.0} {:.0})", elapsed_s, duration_s, swing.side, swing.manner, swing.to.planar.x_m*1e3, swing.to.planar.y_m*1e3, swing.planned.planar.x_m*1e3, swing.planned.planar.y_m*1e3),
-        };
-        format!("xi {:.0} {:.0} err {:.0} {:.0} zmp {:.0} {:.0} {} {}", d.x, d.y, e.x, e.y, self.pressure.zmp.x*1e3, self.pressure.zmp.y*1e3, if self.catching.is_active() {"CATCH"} else {""}, ph)
-    }
-
     /// The foot that stands while the other moves; `None` while both carry.
     pub(crate) const fn support(&self) -> Option<Side> {
         match &self.gait.phase {
