@@ -3,7 +3,8 @@
 //! A [`Walker`] is chosen by its name; the crate's own is [`DcmWalker`], and all else here is what that is made of.
 //! [`Gait`](gait::Gait) decides which foot moves where and when, [`dcm`] gives the motion of the centre of mass for it,
 //! [`balance`] measures how far the robot is from it, [`support`] says where the feet have to push, [`capture`] moves a step when
-//! pushing is not enough, and [`leg`] turns all of it into joint angles.
+//! pushing is not enough, `catching` steps at once when the robot is pushed harder than that, and [`leg`] turns all of it into joint
+//! angles.
 
 mod advance;
 mod ankles;
