@@ -1,3 +1,5 @@
+//! Pushes, jolts and starts as the robot that catches pushes feels them.
+
 use super::*;
 use crate::phase::GaitReference;
 use crate::relief::Relief;

@@ -128,16 +128,8 @@ impl DcmWalker {
         self.list.take(&command.motion, &mut self.gait, frame);
         let relief = Relief::new(slopes, frame.planar, &self.config.tuning.relief);
         let task = self.list.task(&command.motion, &self.gait, relief);
-        let falling = Falling {
-            dcm: self.balance.dcm(),
-            reference: self.reference.dcm,
-            omega,
-            soles: &self.soles,
-            task,
-            loads_n: felt.loads_n,
-            soles_m: felt.soles_m,
-            passed_s,
-        };
+        let (balance, reference) = (&self.balance, &self.reference);
+        let falling = Falling::new(balance, reference, &felt, &self.soles, task, passed_s);
         let (gait, soles) = (&mut self.gait, &self.soles);
         let caught = self.catching.step(gait, &falling);
         let rate =
@@ -176,11 +168,15 @@ impl DcmWalker {
         let torques = &mut targets.torques_nm;
         self.posture
             .feed_forward(&moment, &state.links, &self.pressure, torques);
+        self.head_and_arms(command, passed_s);
+        Ok(&self.targets)
+    }
+
+    fn head_and_arms(&mut self, command: &Command, passed_s: f64) {
         self.head.turn(&command.gaze, passed_s, &mut self.targets);
         let standing = self.gait.is_standing();
         self.arms
             .turn(command.arms, standing, passed_s, &mut self.targets);
-        Ok(&self.targets)
     }
 
     fn pass(&mut self, now_ns: u64) -> f64 {

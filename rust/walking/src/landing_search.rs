@@ -7,10 +7,12 @@
 use geometry::PlanarPose;
 use nalgebra::{Vector2, Vector3};
 
+use crate::balance::Balance;
 use crate::config::GaitConfig;
+use crate::felt::Felt;
 use crate::footsteps::FootstepPlanner;
 use crate::gait::Gait;
-use crate::phase::Swing;
+use crate::phase::{GaitReference, Swing};
 use crate::support::Soles;
 use crate::task::Task;
 
@@ -33,6 +35,29 @@ pub(crate) struct Falling<'a> {
     pub(crate) soles_m: [Vector3<f64>; 2],
     /// Time since the last tick, s.
     pub(crate) passed_s: f64,
+}
+
+impl<'a> Falling<'a> {
+    /// Where the robot is by `balance`, and where it was to be.
+    pub(crate) fn new(
+        balance: &Balance,
+        reference: &GaitReference,
+        felt: &Felt,
+        soles: &'a Soles,
+        task: Task<'a>,
+        passed_s: f64,
+    ) -> Self {
+        Self {
+            dcm: balance.dcm(),
+            reference: reference.dcm,
+            omega: balance.omega,
+            soles,
+            task,
+            loads_n: felt.loads_n,
+            soles_m: felt.soles_m,
+            passed_s,
+        }
+    }
 }
 
 /// A step as it may be taken.
