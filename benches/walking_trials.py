@@ -103,7 +103,12 @@ class World:
         self.sensors.blind(2**62)
         self.simulation.motors.encoder_offsets = self.sensors.encoder_offsets
         description = robot.description()
-        description["gait"] = {**description["gait"], **job.gait}
+        for key, value in job.gait.items():
+            *tables, last = key.split(".")
+            table = description["gait"]
+            for name in tables:
+                table = table.setdefault(name, {})
+            table[last] = value
         self.walker = Walker(json.dumps(description))
         if job.told:
             self.walker.slope = told(course, job, streams("told"))

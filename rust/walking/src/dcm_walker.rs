@@ -11,6 +11,7 @@ use crate::ankles::Ankles;
 use crate::arms::ArmsControl;
 use crate::balance::{Balance, Sensed};
 use crate::capture::Capture;
+use crate::catching::Catching;
 use crate::config::GaitConfig;
 use crate::drives::Drives;
 use crate::error::WalkError;
@@ -19,6 +20,7 @@ use crate::felt::{Felt, KnownGround};
 use crate::footsteps::FootstepPlanner;
 use crate::gait::Gait;
 use crate::gaze::HeadControl;
+use crate::landing_search::Falling;
 use crate::met::Met;
 use crate::pelvis::Course;
 use crate::phase::GaitReference;
@@ -50,6 +52,7 @@ pub struct DcmWalker {
     feet_control: FeetControl,
     ankles: Ankles,
     capture: Capture,
+    catching: Catching,
     posture: Posture,
     com: Vector2<f64>,
     reference: GaitReference,
@@ -79,7 +82,8 @@ impl DcmWalker {
             soles: Soles::new(body, config.sole_margin),
             feet_control: FeetControl::new(&config),
             ankles: Ankles::new(&config, body),
-            capture: Capture::new(&config, planner),
+            capture: Capture::new(&config, planner.clone()),
+            catching: Catching::new(&config, planner),
             posture: Posture::new(body, &config)?,
             targets: JointTargets {
                 positions_rad: rest,
@@ -121,15 +125,18 @@ impl DcmWalker {
         self.sense(observation, state, passed_s);
         let error = self.balance.dcm() - self.reference.dcm;
         let omega = self.balance.omega;
-        let rate = self
-            .capture
-            .adjust(&mut self.gait, &self.soles, &error, omega, passed_s);
         self.gait.catch_tipping(&error);
         let felt = self.feel(observation, state);
         let frame = self.frame(&felt);
         self.list.take(&command.motion, &mut self.gait, frame);
         let relief = Relief::new(slopes, frame.planar, &self.config.tuning.relief);
         let task = self.list.task(&command.motion, &self.gait, relief);
+        let (balance, reference) = (&self.balance, &self.reference);
+        let falling = Falling::new(balance, reference, &felt, &self.soles, task, passed_s);
+        let (gait, soles) = (&mut self.gait, &self.soles);
+        let caught = self.catching.step(gait, &falling);
+        let rate =
+            caught.unwrap_or_else(|| self.capture.adjust(gait, soles, &error, omega, passed_s));
         self.gait
             .advance(passed_s * rate, task, &KnownGround::Felt(felt));
         self.met = self.gait.take_met().map(|met| met.seen_from(&frame.planar));
@@ -164,12 +171,16 @@ impl DcmWalker {
         let torques = &mut targets.torques_nm;
         self.posture
             .feed_forward(&moment, &state.links, &self.pressure, torques);
+        self.head_and_arms(command, passed_s);
+        Ok(&self.targets)
+    }
+
+    fn head_and_arms(&mut self, command: &Command, passed_s: f64) {
         self.head.turn(&command.gaze, passed_s, &mut self.targets);
         let standing = self.gait.is_standing();
         self.arms
             .turn(command.arms, standing, passed_s, &mut self.targets);
         self.drives.turn(&mut self.targets);
-        Ok(&self.targets)
     }
 
     fn pass(&mut self, now_ns: u64) -> f64 {

@@ -14,6 +14,8 @@ pub struct FootstepPlanner {
     /// Length of a sole, m.
     pub(crate) sole_length_m: f64,
     sole_width_m: f64,
+    /// Height of the hips over the soles, m.
+    pub(crate) leg_m: f64,
 }
 
 impl FootstepPlanner {
@@ -24,6 +26,7 @@ impl FootstepPlanner {
             config: config.clone(),
             sole_length_m: legs.left.sole.length.max(legs.right.sole.length),
             sole_width_m: legs.left.sole.width.max(legs.right.sole.width),
+            leg_m: config.hip_height,
         }
     }
 
@@ -106,6 +109,23 @@ impl FootstepPlanner {
     ) -> PlanarPose {
         let most = self.config.climb_forward;
         self.within(stance, landing, swing, [-most, most])
+    }
+
+    /// Moves a landing of a step that catches a push within reach, as [`Self::keep_apart`]: as far as legs go for once.
+    pub fn within_catch(
+        &self,
+        stance: &PlanarPose,
+        landing: &PlanarPose,
+        swing: Side,
+    ) -> PlanarPose {
+        let tuning = &self.config.tuning.catching;
+        let along_m = tuning.along * self.leg_m;
+        let mut local = stance.relative(landing);
+        local.x_m = local.x_m.clamp(-along_m, along_m);
+        let (nearest, _) = self.lateral_limits_m(local.yaw_rad);
+        let farthest = (self.config.stance_width + tuning.aside * self.leg_m).max(nearest);
+        local.y_m = swing.sign() * (swing.sign() * local.y_m).clamp(nearest, farthest);
+        stance.compose(&local)
     }
 
     /// A landing moved to between these places along the standing foot, beside it, and turned no further than the gait turns.

@@ -82,6 +82,11 @@ impl Gait {
         }
     }
 
+    /// Whether the last step was one of a walk; so is a start.
+    pub(crate) const fn walked_last(&self) -> bool {
+        matches!(self.last.1, Manner::Walk)
+    }
+
     /// Frame between two feet.
     pub fn center_of(feet: &[FootPose; 2]) -> PlanarPose {
         let [left, right] = [feet[0].planar, feet[1].planar];

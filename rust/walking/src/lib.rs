@@ -3,13 +3,15 @@
 //! A [`Walker`] is chosen by its name; the crate's own is [`DcmWalker`], and all else here is what that is made of.
 //! [`Gait`](gait::Gait) decides which foot moves where and when, [`dcm`] gives the motion of the centre of mass for it,
 //! [`balance`] measures how far the robot is from it, [`support`] says where the feet have to push, [`capture`] moves a step when
-//! pushing is not enough, and [`leg`] turns all of it into joint angles.
+//! pushing is not enough, `catching` steps at once when the robot is pushed harder than that, and [`leg`] turns all of it into joint
+//! angles.
 
 mod advance;
 mod ankles;
 mod arms;
 pub mod balance;
 pub mod capture;
+mod catching;
 mod chain;
 mod chain_anatomy;
 mod closed_form;
@@ -26,6 +28,7 @@ pub mod gait;
 mod gaze;
 mod heel;
 mod landing;
+mod landing_search;
 mod lean;
 pub mod leg;
 mod leg_angles;
@@ -34,6 +37,7 @@ mod leg_sizes;
 mod listed;
 mod listed_steps;
 mod met;
+mod newton;
 mod pelvis;
 pub mod phase;
 mod posture;

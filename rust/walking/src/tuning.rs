@@ -1,6 +1,12 @@
 //! The finer settings of the gait: `[gait.tuning]` of robot.toml.
 
-use settings::{NOT_NEGATIVE, POSITIVE, SHARE, above_to, at_least, between, settings, within};
+mod legs;
+mod pushes;
+
+use settings::{NOT_NEGATIVE, POSITIVE, SHARE, above_to, at_least, settings, within};
+
+pub(crate) use legs::{LegTuning, SharedHipTuning, SoleFitTuning};
+pub(crate) use pushes::{CaptureTuning, CatchingTuning, TippingTuning};
 
 /// Most steps that may be looked ahead: room for them in an array.
 pub(crate) const MOST_STEPS: usize = 8;
@@ -30,6 +36,8 @@ settings! {
         preview: PreviewTuning;
         /// How steps are moved to catch a push.
         capture: CaptureTuning;
+        /// Steps that catch a push which ankles cannot hold.
+        catching: CatchingTuning;
         /// How an ankle yields.
         ankles: AnklesTuning;
         /// The path of the swing foot.
@@ -58,48 +66,6 @@ settings! {
         least_load: f64 = 1.0, "N", POSITIVE;
         /// Share of the robot's weight that the feet must carry for their centre of pressure to count.
         pressure_load: f64 = 0.3, "1", SHARE;
-    }
-}
-
-settings! {
-    /// The inverse kinematics of the legs: in closed form, or by Newton's method where that does not hold.
-    pub struct LegTuning("gait.tuning.leg") {
-        /// By how much axes may miss the point in which the closed form lets them meet: the sole then is that far from where it should be.
-        miss: f64 = 1e-3, "m", above_to(0.0, 10.0);
-        /// Steepest slant of a hip's yaw axis.
-        steepest: f64 = 1.2, "rad", between(0.0, 1.57);
-        /// Share of the thigh that is left between hip and ankle of the shortest leg, beyond the difference of thigh and shank.
-        shortest: f64 = 0.05, "1", above_to(0.0, 1.0);
-        /// Most steps of Newton's method from a solution that is near; as many again from the upright stance where those do not get there.
-        steps: usize = 12, "1", within(1.0, 1000.0);
-        /// Newton's method is done when the sole is so near to where it should be.
-        near: f64 = 1e-6, "m" of numerics, above_to(0.0, 1e-3);
-        /// Largest turn of a joint in one step of it.
-        longest_step: f64 = 0.5, "rad", above_to(0.0, 3.2);
-    }
-}
-
-settings! {
-    /// How two hips agree that share one yaw motor.
-    pub struct SharedHipTuning("gait.tuning.shared_hip") {
-        /// Turns of the torso after which both legs agree; the first is exact for legs side by side.
-        turns: usize = 6, "1", within(1.0, 1000.0);
-        /// The torso is never turned further from where it was to be than this.
-        most_turn: f64 = 0.5, "rad", between(0.0, 1.57);
-        /// Least slope of the secant method, as a share of that for legs side by side, which is taken where it is less.
-        least_slope: f64 = 0.3, "1", POSITIVE;
-    }
-}
-
-settings! {
-    /// What soles change of the gait that are narrower than those of `qrio` made as large as the robot, where `[gait]` does not say it.
-    pub struct SoleFitTuning("gait.tuning.sole_fit") {
-        /// Width of the soles for which the gait's defaults are.
-        width: f64 = 0.075, "m", above_to(0.0, 10.0);
-        /// Shortest time of a step, as a share of what the robot's size alone makes it.
-        quickest: f64 = 0.6, "1", above_to(0.0, 1.0);
-        /// How far the weight goes inwards, as a share of what half a sole lacks.
-        inward: f64 = 0.25, "1", SHARE;
     }
 }
 
@@ -184,18 +150,6 @@ settings! {
 }
 
 settings! {
-    /// How steps are moved to catch a push.
-    pub struct CaptureTuning("gait.tuning.capture") {
-        /// Share of the swing after which the landing stays where it is.
-        committed: f64 = 0.85, "1", SHARE;
-        /// Fastest that a landing is moved.
-        speed: f64 = 1.0, "m/s", above_to(0.0, 10.0);
-        /// Growth of the error until the landing, less 1, that is reckoned with at least, at the end of a step.
-        least_growth: f64 = 0.01, "1", POSITIVE;
-    }
-}
-
-settings! {
     /// How an ankle yields.
     pub struct AnklesTuning("gait.tuning.ankles") {
         /// Time over which the measured forces are smoothed.
@@ -270,18 +224,6 @@ settings! {
         short_time: f64 = 1.5, "s", within(0.0, 60.0);
         /// How far before what it met a foot then comes down.
         clear: f64 = 0.003, "m", above_to(0.0, 10.0);
-    }
-}
-
-settings! {
-    /// When a listed step is begun anew because the robot tips.
-    pub struct TippingTuning("gait.tuning.tipping") {
-        /// How often in a list a foot is put down again; a robot that still tips is better off with the step behind it.
-        times: usize = 3, "1", NOT_NEGATIVE;
-        /// How far the robot may tip forward or back, as a share of how far it tips sideways: no foot beside the other one stops that.
-        ahead_share: f64 = 0.5, "1", NOT_NEGATIVE;
-        /// Share of its way over the ground up to which a foot is still where it left.
-        gone_share: f64 = 0.05, "1", SHARE;
     }
 }
 

@@ -1,0 +1,71 @@
+//! The finer settings of what the walker does when it is pushed or tips.
+
+use settings::{NOT_NEGATIVE, POSITIVE, SHARE, above_to, at_least, settings, within};
+
+settings! {
+    /// How steps are moved to catch a push.
+    pub struct CaptureTuning("gait.tuning.capture") {
+        /// Share of the swing after which the landing stays where it is.
+        committed: f64 = 0.85, "1", SHARE;
+        /// Fastest that a landing is moved.
+        speed: f64 = 1.0, "m/s", above_to(0.0, 10.0);
+        /// Growth of the error until the landing, less 1, that is reckoned with at least, at the end of a step.
+        least_growth: f64 = 0.01, "1", POSITIVE;
+    }
+}
+
+settings! {
+    /// Steps that catch a push which ankles cannot hold: sooner than in a walk, and farther.
+    pub struct CatchingTuning("gait.tuning.catching") {
+        /// Error of the divergent component of motion from which on the robot counts as pushed, in heights of the hips.
+        begins: f64 = 0.15, "1", POSITIVE;
+        /// Time for which the error has to be so large: a start or a landing jolts for a moment.
+        sure_time: f64 = 0.025, "s", within(0.0, 60.0);
+        /// Error below which a push is over, in heights of the hips.
+        ends: f64 = 0.06, "1", POSITIVE;
+        /// Time that the error has to be so small.
+        calm_time: f64 = 0.3, "s", within(0.0, 60.0);
+        /// How far outside of what both feet hold a foot is lifted at once, as a share of half a sole's length.
+        outside: f64 = 0.12, "1", NOT_NEGATIVE;
+        /// Share of the swing after which the landing stays where it is.
+        committed: f64 = 0.85, "1", SHARE;
+        /// Share of the swing after which a load on the foot is its landing.
+        lands: f64 = 0.4, "1", SHARE;
+        /// Time behind a landing before a foot is lifted again.
+        settle: f64 = 0.03, "s", within(0.0, 60.0);
+        /// How fast a landing is moved, in heights of the hips for each time constant of the pendulum.
+        speed: f64 = 1.5, "1", POSITIVE;
+        /// How fast a foot gets to another place on average, in heights of the hips for each time constant of the pendulum.
+        stride: f64 = 0.7, "1", POSITIVE;
+        /// How far over the outer edge a foot in the air is told to be a counterweight, in heights of the hips.
+        out: f64 = 0.02, "1", NOT_NEGATIVE;
+        /// Share of the swing at which a foot that is a counterweight waits.
+        out_share: f64 = 0.5, "1", SHARE;
+        /// How many times faster than in a walk a foot goes at most.
+        hurry: f64 = 2.0, "1", at_least(1.0);
+        /// How much later than planned a foot lands at most, in time constants of the pendulum.
+        wait: f64 = 1.5, "1", NOT_NEGATIVE;
+        /// Among how many times that of the landing is chosen.
+        times: usize = 12, "1", within(2.0, 1000.0);
+        /// What moving a landing costs against missing what it had to catch.
+        moving: f64 = 0.05, "1", NOT_NEGATIVE;
+        /// What another time costs, half a sole's length for each time constant of the pendulum.
+        shifting: f64 = 0.1, "1", NOT_NEGATIVE;
+        /// Longest step ahead or back, in heights of the hips.
+        along: f64 = 0.75, "1", POSITIVE;
+        /// Largest extra distance between the feet, in heights of the hips.
+        aside: f64 = 0.3, "1", POSITIVE;
+    }
+}
+
+settings! {
+    /// When a listed step is begun anew because the robot tips.
+    pub struct TippingTuning("gait.tuning.tipping") {
+        /// How often in a list a foot is put down again; a robot that still tips is better off with the step behind it.
+        times: usize = 3, "1", NOT_NEGATIVE;
+        /// How far the robot may tip forward or back, as a share of how far it tips sideways: no foot beside the other one stops that.
+        ahead_share: f64 = 0.5, "1", NOT_NEGATIVE;
+        /// Share of its way over the ground up to which a foot is still where it left.
+        gone_share: f64 = 0.05, "1", SHARE;
+    }
+}
