@@ -6,12 +6,10 @@ use robot::{Body, MOST_LEG_JOINTS, Side};
 
 use crate::chain_anatomy::{LegAnatomy, LegHinges};
 use crate::error::WalkError;
-use crate::leg_angles::LegAngles;
+use crate::leg_angles::{JointAngles, LegAngles};
 use crate::leg_sizes::LegSizes;
 use crate::newton::{Newton, SoleTask};
 use crate::tuning::LegTuning;
-
-type Angles = [f64; MOST_LEG_JOINTS];
 
 /// A turn of the torso to see how a joint follows it, rad.
 const SMALL_RAD: f64 = 1e-3;
@@ -23,7 +21,7 @@ const TURNS: [&str; 3] = ["roll", "pitch", "yaw"];
 pub(crate) struct LegChain {
     hinges: LegHinges,
     anatomy: LegAnatomy,
-    rest_rad: Angles,
+    rest_rad: JointAngles,
     longest_m: f64,
     shortest_m: f64,
     tuning: LegTuning,
@@ -75,7 +73,11 @@ impl LegChain {
     }
 
     /// The joint angles that put the sole there.
-    pub(crate) fn solve(&self, torso_from_sole: &Isometry3<f64>, near_rad: &Angles) -> LegAngles {
+    pub(crate) fn solve(
+        &self,
+        torso_from_sole: &Isometry3<f64>,
+        near_rad: &JointAngles,
+    ) -> LegAngles {
         self.reach(
             SoleTask {
                 torso_from_sole: *torso_from_sole,
@@ -93,7 +95,7 @@ impl LegChain {
         torso_from_sole: &Isometry3<f64>,
         slot: usize,
         held_rad: f64,
-        near_rad: &Angles,
+        near_rad: &JointAngles,
     ) -> LegAngles {
         let mut near_rad = *near_rad;
         near_rad[slot] = held_rad;
@@ -109,7 +111,7 @@ impl LegChain {
     }
 
     /// How much the angle of a joint grows by a turn of the torso to the left, in the upright stance.
-    pub(crate) fn per_turn(&self, slot: usize, rest_rad: &Angles) -> f64 {
+    pub(crate) fn per_turn(&self, slot: usize, rest_rad: &JointAngles) -> f64 {
         let (_, sole) = self.hinges.posed(rest_rad);
         let turn = nalgebra::UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -SMALL_RAD);
         let hip = self.anatomy.sizes.hip;
@@ -118,7 +120,7 @@ impl LegChain {
         (angle(&turned) - angle(&sole)) / SMALL_RAD
     }
 
-    fn reach(&self, task: SoleTask, near_rad: &Angles) -> LegAngles {
+    fn reach(&self, task: SoleTask, near_rad: &JointAngles) -> LegAngles {
         let newton = Newton {
             hinges: &self.hinges,
             rest_rad: &self.rest_rad,

@@ -2,6 +2,9 @@
 
 use robot::MOST_LEG_JOINTS;
 
+/// Of the joints of a leg in their order, rad; what is beyond the last joint is 0.
+pub(crate) type JointAngles = [f64; MOST_LEG_JOINTS];
+
 /// Joint angles of a leg, from the hip down.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LegAngles {

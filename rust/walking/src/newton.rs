@@ -6,9 +6,9 @@ use nalgebra::{Isometry3, SMatrix, SVector, Vector3};
 use robot::MOST_LEG_JOINTS;
 
 use crate::chain_anatomy::LegHinges;
+use crate::leg_angles::JointAngles;
 use crate::tuning::LegTuning;
 
-type Angles = [f64; MOST_LEG_JOINTS];
 type Moves = SMatrix<f64, 6, MOST_LEG_JOINTS>;
 
 /// Damping that is left where nothing of the error is, as a share of the squared length of the leg.
@@ -33,7 +33,7 @@ pub(crate) struct SoleTask {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Solution {
     /// Of the joints, within their ranges.
-    pub(crate) angles_rad: Angles,
+    pub(crate) angles_rad: JointAngles,
     /// By how much the sole is off, turns times the length of the leg, m.
     pub(crate) off_m: f64,
     /// Whether that is next to nothing.
@@ -46,7 +46,7 @@ pub(crate) struct Newton<'a> {
     /// The joints, and the sole behind them.
     pub(crate) hinges: &'a LegHinges,
     /// Their angles in the upright stance.
-    pub(crate) rest_rad: &'a Angles,
+    pub(crate) rest_rad: &'a JointAngles,
     /// How long the leg is, m: it makes turns lengths.
     pub(crate) leg_m: f64,
     /// When it is done.
@@ -55,7 +55,7 @@ pub(crate) struct Newton<'a> {
 
 impl Newton<'_> {
     /// Goes from angles that are near to those that do what is asked for, or as near to it as it gets.
-    pub(crate) fn iterate(&self, task: &SoleTask, near_rad: &Angles) -> Solution {
+    pub(crate) fn iterate(&self, task: &SoleTask, near_rad: &JointAngles) -> Solution {
         let all = self.hinges.all();
         let mut angles_rad = [0.0; MOST_LEG_JOINTS];
         for (slot, hinge) in all.iter().enumerate() {
@@ -98,7 +98,7 @@ impl Newton<'_> {
     }
 
     /// By how much the sole is off (turns times the length of the leg, all in m), and how each joint moves it.
-    fn error(&self, task: &SoleTask, angles_rad: &Angles) -> (SVector<f64, 6>, Moves) {
+    fn error(&self, task: &SoleTask, angles_rad: &JointAngles) -> (SVector<f64, 6>, Moves) {
         let (posed, sole) = self.hinges.posed(angles_rad);
         let wanted = &task.torso_from_sole;
         let point = sole.translation.vector + sole.rotation * task.point;
@@ -128,7 +128,7 @@ impl Newton<'_> {
     fn step(
         &self,
         task: &SoleTask,
-        angles_rad: &Angles,
+        angles_rad: &JointAngles,
         error: &SVector<f64, 6>,
         mut moves: Moves,
     ) -> Option<SVector<f64, MOST_LEG_JOINTS>> {
