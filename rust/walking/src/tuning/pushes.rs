@@ -18,7 +18,7 @@ settings! {
     /// Steps that catch a push which ankles cannot hold: sooner than in a walk, and farther.
     pub struct CatchingTuning("gait.tuning.catching") {
         /// Error of the divergent component of motion from which on the robot counts as pushed, in heights of the hips.
-        begins: f64 = 0.15, "1", POSITIVE;
+        begins: f64 = 0.2, "1", POSITIVE;
         /// Time for which the error has to be so large: a start or a landing jolts for a moment.
         sure_time: f64 = 0.025, "s", within(0.0, 60.0);
         /// Error below which a push is over, in heights of the hips.
