@@ -121,33 +121,42 @@ impl LegChain {
     }
 
     fn reach(&self, task: SoleTask, near_rad: &JointAngles) -> LegAngles {
-        let newton = Newton {
+        let leg_m = self.anatomy.sizes.thigh_m + self.anatomy.sizes.shank_m;
+        let mut newton = Newton {
             hinges: &self.hinges,
             rest_rad: &self.rest_rad,
-            leg_m: self.anatomy.sizes.thigh_m + self.anatomy.sizes.shank_m,
+            turn_m: leg_m,
             tuning: &self.tuning,
         };
         let mut found = newton.iterate(&task, near_rad);
-        let mut short_m = 0.0;
-        if !found.done {
-            let mut rest_rad = self.rest_rad;
-            if let Some(slot) = task.held {
-                rest_rad[slot] = near_rad[slot];
-            }
-            let (nearer, beyond_m) = self.shortened(task);
-            found = newton.iterate(&nearer, near_rad);
+        if found.done {
+            return LegAngles {
+                angles_rad: found.angles_rad,
+                reached: true,
+                short_m: 0.0,
+            };
+        }
+        let (mut nearer, mut short_m) = self.shortened(task);
+        let mut rest_rad = self.rest_rad;
+        if let Some(slot) = task.held {
+            rest_rad[slot] = near_rad[slot];
+        }
+        for start_rad in [near_rad, &rest_rad] {
             if !found.done {
-                let anew = newton.iterate(&nearer, &rest_rad);
-                if anew.done || anew.off_m < found.off_m {
-                    found = anew;
-                }
+                found = newton.iterate(&nearer, start_rad);
             }
-            short_m = beyond_m.max(if found.done { 0.0 } else { found.off_m });
-            found.done &= nearer.torso_from_sole == task.torso_from_sole;
+        }
+        let reached = found.done && nearer.torso_from_sole == task.torso_from_sole;
+        if !found.done {
+            // A joint is at its end: the ankle gets where it should, and the sole lies as it then can.
+            nearer.point = self.anatomy.sizes.ankle_in_sole;
+            newton.turn_m = self.tuning.lying * leg_m;
+            found = newton.iterate(&nearer, near_rad);
+            short_m = short_m.max(found.off_m);
         }
         LegAngles {
             angles_rad: found.angles_rad,
-            reached: found.done,
+            reached,
             short_m,
         }
     }

@@ -252,6 +252,24 @@ fn what_is_too_far_is_approached_as_far_as_the_leg_is_long() {
 }
 
 #[test]
+fn where_the_ankle_bends_no_further_it_gets_where_it_should_and_the_sole_tilts() {
+    let body = with_legs(&PITCH_FIRST);
+    let leg = leg(&body, Side::Left);
+    let ahead = Isometry3::translation(leg.hip().x + 0.3, 0.106, -0.58);
+    let found = leg.solve(&ahead, leg.rest_rad());
+    assert!(!found.reached && found.short_m < 2e-3, "{found:?}");
+    assert_eq!(found.angles_rad[4], PITCH_FIRST[4].3[1]);
+    let sole = sole_at(&body, Side::Left, &found.angles_rad);
+    let ankle = leg_ankle(&leg);
+    assert!((sole * ankle - ahead * ankle).norm() < 2e-3, "{sole}");
+}
+
+fn leg_ankle(leg: &LegSolver) -> nalgebra::Point3<f64> {
+    let over = leg.ankle_in_plan(&geometry::PlanarPose::default());
+    nalgebra::Point3::new(over.x, over.y, leg.ankle_height_m())
+}
+
+#[test]
 fn joints_that_are_no_chain_are_refused_by_name() {
     let mut mixed = description();
     mixed.legs.left.joints.swap(1, 4);

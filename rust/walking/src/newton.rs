@@ -11,7 +11,7 @@ use crate::tuning::LegTuning;
 
 type Moves = SMatrix<f64, 6, MOST_LEG_JOINTS>;
 
-/// Damping that is left where nothing of the error is, as a share of the squared length of the leg.
+/// Damping that is left where nothing of the error is, as a share of the square of what makes turns lengths.
 const LEAST_DAMPING: f64 = 1e-12;
 /// Weight of the pull to the upright stance where there are more joints than the sole needs, as a share of the same.
 const PULL: f64 = 1e-7;
@@ -34,8 +34,10 @@ pub(crate) struct SoleTask {
 pub(crate) struct Solution {
     /// Of the joints, within their ranges.
     pub(crate) angles_rad: JointAngles,
-    /// By how much the sole is off, turns times the length of the leg, m.
+    /// By how far the point of the sole is off, m.
     pub(crate) off_m: f64,
+    /// That, and by how much the sole is turned off, made a length, m.
+    both_m: f64,
     /// Whether that is next to nothing.
     pub(crate) done: bool,
 }
@@ -47,8 +49,8 @@ pub(crate) struct Newton<'a> {
     pub(crate) hinges: &'a LegHinges,
     /// Their angles in the upright stance.
     pub(crate) rest_rad: &'a JointAngles,
-    /// How long the leg is, m: it makes turns lengths.
-    pub(crate) leg_m: f64,
+    /// What makes turns lengths, m: the length of the leg, or less where it matters more where the sole is than how it lies.
+    pub(crate) turn_m: f64,
     /// When it is done.
     pub(crate) tuning: &'a LegTuning,
 }
@@ -68,6 +70,7 @@ impl Newton<'_> {
         let mut solution = Solution {
             angles_rad,
             off_m: f64::INFINITY,
+            both_m: f64::INFINITY,
             done: false,
         };
         for step in 0..=self.tuning.steps {
@@ -75,10 +78,11 @@ impl Newton<'_> {
             let off_m = error.fixed_rows::<3>(0).norm();
             let turned_m = error.fixed_rows::<3>(3).norm();
             let done = off_m.max(turned_m) < self.tuning.near;
-            if done || off_m + turned_m < solution.off_m {
+            if done || off_m + turned_m < solution.both_m {
                 solution = Solution {
                     angles_rad,
-                    off_m: off_m + turned_m,
+                    off_m,
+                    both_m: off_m + turned_m,
                     done,
                 };
             }
@@ -106,7 +110,7 @@ impl Newton<'_> {
         let back = wanted.rotation.inverse();
         let turn = (wanted.rotation * sole.rotation.inverse()).into_inner();
         // Twice the sine of half the turn: nothing where there is none, and as the turn where it is small.
-        let turned = back * (turn.imag() * (2.0 * turn.w.signum() * self.leg_m));
+        let turned = back * (turn.imag() * (2.0 * turn.w.signum() * self.turn_m));
         let mut error = SVector::<f64, 6>::zeros();
         error.fixed_rows_mut::<3>(0).copy_from(&off);
         error.fixed_rows_mut::<3>(3).copy_from(&turned);
@@ -114,7 +118,7 @@ impl Newton<'_> {
         for (slot, (axis, anchor)) in posed.iter().take(self.hinges.all().len()).enumerate() {
             let shift = axis.cross(&(point - anchor));
             moves.fixed_view_mut::<3, 1>(0, slot).copy_from(&shift);
-            let turns = back * (axis * self.leg_m);
+            let turns = back * (axis * self.turn_m);
             moves.fixed_view_mut::<3, 1>(3, slot).copy_from(&turns);
         }
         if let Some(axis) = task.left_open {
@@ -147,9 +151,9 @@ impl Newton<'_> {
         }
         let mut normal = moves.tr_mul(&moves);
         let mut right = moves.tr_mul(error);
-        let damping = error.norm_squared() + LEAST_DAMPING * self.leg_m * self.leg_m;
+        let damping = error.norm_squared() + LEAST_DAMPING * self.turn_m * self.turn_m;
         let pull = if all.len() > 6 {
-            PULL * self.leg_m * self.leg_m
+            PULL * self.turn_m * self.turn_m
         } else {
             0.0
         };

@@ -15,6 +15,8 @@ settings! {
         steps: usize = 12, "1", within(1.0, 1000.0);
         /// Newton's method is done when the sole is so near to where it should be.
         near: f64 = 1e-6, "m" of numerics, above_to(0.0, 1e-3);
+        /// Where a joint comes to its end: how much it counts how the sole lies, against where its ankle is.
+        lying: f64 = 0.1, "1", above_to(0.0, 1.0);
         /// Largest turn of a joint in one step of it.
         longest_step: f64 = 0.5, "rad", above_to(0.0, 3.2);
     }
