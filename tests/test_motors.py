@@ -7,6 +7,7 @@ import pytest
 
 from treadwell._core import Servos
 from treadwell.protocols import JointTargets
+from treadwell.robot.followers import Tie
 from treadwell.robot.motor_limits import LEAST_SHARE, MotorLimits, rotors
 
 STEP = 0.002
@@ -82,10 +83,13 @@ def test_limits_of_different_lengths_are_refused() -> None:
 
 def test_friction_and_rotor_of_a_joint_without_a_motor_are_its_leaders() -> None:
     armature, moved, friction = np.full(3, 0.01), np.full(3, 0.02), np.full(3, 0.05)
-    inertia, rubbing = rotors(armature, moved, friction, {2: 0})
+    inertia, rubbing = rotors(armature, moved, friction, {2: Tie(0)})
     assert inertia.tolist() == [0.02, 0.01, 0.0]
     assert rubbing.tolist() == [0.1, 0.05, 0.0]
     assert friction.tolist() == [0.05] * 3
+    inertia, rubbing = rotors(armature, moved, friction, {2: Tie(0, ratio=-0.5)})
+    assert inertia == pytest.approx([0.0125, 0.01, 0.0])
+    assert rubbing == pytest.approx([0.075, 0.05, 0.0])
 
 
 def test_a_joint_without_armature_rubs_by_what_it_moves() -> None:

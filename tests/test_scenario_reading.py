@@ -78,7 +78,7 @@ def test_a_robots_folder_is_looked_for_from_the_file_that_names_it(
 def test_a_robot_that_is_nowhere_is_one_message_with_file_key_and_place(tmp_path: Path) -> None:
     path = write(tmp_path, f'robot = "../qiro"\n{HEAD}')
     said = message(path)
-    assert said.startswith(f'{path}: robot: found "../qiro"; must be one of nao, qrio, ')
+    assert said.startswith(f'{path}: robot: found "../qiro"; must be one of h130, nao, qrio, ')
     assert f"there is no {tmp_path / '../qiro/robot.toml'}" in said
     assert "did you mean 'qrio'" in message(write(tmp_path, f'robot = "qiro"\n{HEAD}'))
     assert said.count("\n") == 0
