@@ -98,6 +98,12 @@ def test_a_failure_of_the_cores_own_blames_nobody() -> None:
     assert str(blamed(CoreError("behaviour: no"), guards)) == "behaviour: Still: no"
 
 
+def test_an_attribute_that_is_no_method_is_no_method_of_the_protocol() -> None:
+    behaviour = Failing(nothing_ever)
+    behaviour.begin = None  # type: ignore[attr-defined]
+    assert not hasattr(Guard("behaviour", "Failing", behaviour, 1.0), "begin")
+
+
 @pytest.mark.parametrize("slot", PARTS)
 def test_the_limit_goes_for_every_method_of_every_slot(slot: str) -> None:
     class Slow:

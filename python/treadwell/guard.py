@@ -30,7 +30,9 @@ class Guard:
         self.component = component
         self.error: BaseException | None = None
         limit = CallLimit(limit_s)
-        own = (method for method in OPTIONAL.get(slot, ()) if hasattr(component, method))
+        # An attribute of that name which is no method is the component's own affair.
+        asked = OPTIONAL.get(slot, ())
+        own = (method for method in asked if callable(getattr(component, method, None)))
         for method in (*METHODS[slot], *own):
             setattr(self, method, self._guarded(getattr(component, method), limit))
 
