@@ -9,6 +9,7 @@ import numpy as np
 
 from treadwell._core import Walker
 from treadwell.robot.load import load_robot
+from treadwell.trials.stairs import Level as Tread
 
 GAP_M = 0.015
 """Of a toe to a riser in front, of a heel to one behind (003, Table I), for `qrio`."""
@@ -68,15 +69,6 @@ def sizes_of(name: str) -> Sizes:
 
 
 @dataclass(frozen=True)
-class Tread:
-    """A level from `front` to `back` along x."""
-
-    front: float
-    back: float
-    height: float
-
-
-@dataclass(frozen=True)
 class Errors:
     """Bounds of what was seen wrong: heights and edges, metres."""
 
@@ -96,21 +88,6 @@ def course(rises: list[float], depths: list[float], sizes: Sizes) -> list[Tread]
         treads.append(Tread(edge, edge + depth, height))
         edge += depth
     return treads
-
-
-def elements(treads: list[Tread], sizes: Sizes) -> list[dict[str, object]]:
-    """Return the levels as elements of a scenario."""
-    return [
-        {
-            "kind": "platform",
-            "name": f"level {index}",
-            "position": [(tread.front + tread.back) / 2, 0.0],
-            "yaw": 0.0,
-            "size": [tread.back - tread.front, sizes.scale, tread.height],
-        }
-        for index, tread in enumerate(treads)
-        if tread.height > 1e-6
-    ]
 
 
 def seen(treads: list[Tread], errors: Errors, rng: np.random.Generator) -> list[Tread]:

@@ -24,7 +24,7 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
-from climbing import Errors, elements
+from climbing import Errors
 from into_results import add_options, write
 from numpy.typing import NDArray
 from walking_tasks import COURSES, EDGES, TASKS, Job, Motion, climb, told
@@ -38,6 +38,7 @@ from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import load_robot
 from treadwell.scenario.model import Scenario
 from treadwell.senses.sensors import Sensors
+from treadwell.trials.stairs import elements
 
 TICK_S = 0.01
 PUSH_S = 0.1
@@ -71,7 +72,7 @@ class World:
         streams = RandomStreams(job.seed)
         rng = streams("trial")
         self.treads = COURSES[job.task](streams("course"), job) if job.task in COURSES else []
-        course = elements(self.treads, job.sizes)
+        course = elements(self.treads, job.sizes.scale)
         if job.task in EDGES:
             course = EDGES[job.task](streams("course"), job)
         scenario = Scenario.model_validate(

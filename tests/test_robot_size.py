@@ -13,7 +13,7 @@ from robot_builders import qrio_copy
 from treadwell.reference.parameters import find_parameters
 from treadwell.robot.anatomy import Anatomy
 from treadwell.robot.load import Robot, load_folder, load_robot
-from treadwell.robot.size import Stance
+from treadwell.robot.size import Upright
 
 LENGTHS = ("pos", "size", "fromto")
 CROSSED_HIP = """
@@ -122,7 +122,7 @@ def test_a_file_may_say_the_scale(tmp_path: Path) -> None:
 
 def test_a_leg_is_thigh_shank_and_ankle_whatever_the_order_of_its_joints() -> None:
     found = Anatomy.of(mujoco.MjModel.from_xml_string(CROSSED_HIP))
-    stance = Stance(found.model, found.data)
+    stance = Upright(found.model, found.data)
     sole = SimpleNamespace(link="foot", position=(0.02, 0.0, -0.06))
     leg: Any = SimpleNamespace(joints=("pitch", "roll", "yaw", "knee", "ankle"), sole=sole)
     # The pitch axis passes 2 cm above the point in which the other two meet.

@@ -24,7 +24,7 @@ from treadwell.robot.followers import Tie, ties
 from treadwell.robot.keyframes import STAND
 from treadwell.robot.motor_limits import MotorLimits, rotors
 from treadwell.robot.reading import read_robot_file
-from treadwell.robot.size import Stance, scale_of, with_size
+from treadwell.robot.size import Upright, scale_of, with_size
 from treadwell.scenario.messages import shortened
 
 MOST_FILES = 2000
@@ -118,7 +118,7 @@ class Robot:
     @cached_property
     def scale(self) -> float:
         """How large the robot is against `qrio`, of which the defaults of all settings are."""
-        return scale_of(self._stance, self.file)
+        return scale_of(self.upright, self.file)
 
     @cached_property
     def mass(self) -> float:
@@ -126,8 +126,9 @@ class Robot:
         return float(self.nominal.body_subtreemass[1])
 
     @cached_property
-    def _stance(self) -> Stance:
-        return Stance.of(self.nominal, self.stand_qpos)
+    def upright(self) -> Upright:
+        """The robot as it stands upright, its root level."""
+        return Upright.of(self.nominal, self.stand_qpos)
 
     @cached_property
     def limits(self) -> MotorLimits:
@@ -159,7 +160,7 @@ class Robot:
         Links, masses and mounts are read from the compiled MJCF, so that each number exists once.
         """
         told = describe(self.name, self.nominal, self.file, self.stand, self.limits)
-        return with_size(told, self.scale, self._stance, self.file)
+        return with_size(told, self.scale, self.upright, self.file)
 
     def _group(self, joint: int) -> MotorsTable:
         name = self.joints[joint]

@@ -10,8 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell._core import Legs
-from treadwell.robot.file import LegTable
-from treadwell.robot.joint_roles import KNEE, roles
 from treadwell.robot.load import Robot
 from treadwell.robot.step_blocks import TREAD_M, Steps, add_steps
 
@@ -153,20 +151,9 @@ class Reach:
             hips - soles[carries][2],
             shares[joint][0],
             joint,
-            shares[self._knee(leg)][1],
+            shares[self._robot.upright.knee(leg)][1],
             touches,
         )
-
-    def _knee(self, leg: LegTable) -> str:
-        """Return the name of a leg's knee."""
-        data = mujoco.MjData(self._robot.nominal)
-        data.qpos[:] = self._robot.stand_qpos
-        mujoco.mj_kinematics(self._robot.nominal, data)
-        link = self._robot.nominal.body(leg.sole.link).id
-        sole = data.xpos[link] + data.xmat[link].reshape(3, 3) @ np.array(leg.sole.position)
-        joints = [self._robot.nominal.joint(name).id for name in leg.joints]
-        done = roles(data, joints, sole, data.xmat[1].reshape(3, 3)[:, 0])
-        return leg.joints[done.index(KNEE)]
 
     def _over(self, soles: list[tuple[float, float, float]], carries: int) -> Floats:
         """Return where the weight is when one foot carries it all, (x, y)."""

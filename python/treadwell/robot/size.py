@@ -9,19 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.robot.file import LegTable, RobotFile
+from treadwell.robot.joint_roles import ANKLE_PITCH, KNEE, roles
 
 Floats = NDArray[np.float64]
 
 QRIO_LEG_M = 0.25
 """Length of `qrio`'s leg, m: thigh, shank, and the height of the ankle."""
-_ACROSS = 0.8
-"""A joint whose axis has this much of the transverse axis bends the leg forwards and back."""
 _NEAR = 0.75
 """`BodyTable.foot_side` as a share of where the outer edges of the soles are."""
 
 
 @dataclass(frozen=True, slots=True)
-class Stance:
+class Upright:
     """A robot as it stands upright, its root level.
 
     Attributes:
@@ -33,14 +32,14 @@ class Stance:
     data: mujoco.MjData
 
     @staticmethod
-    def of(model: mujoco.MjModel, stand_qpos: Floats) -> "Stance":
+    def of(model: mujoco.MjModel, stand_qpos: Floats) -> "Upright":
         """Put a model into the stance of these positions."""
         data = mujoco.MjData(model)
         data.qpos[:] = stand_qpos
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
         mujoco.mj_camlight(model, data)
-        return Stance(model, data)
+        return Upright(model, data)
 
     def sole(self, leg: LegTable) -> Floats:
         """Return the centre (3,) of a leg's sole in the world, m."""
@@ -72,16 +71,29 @@ class Stance:
         The hip's centre is where the axes above the knee come nearest to each other.
         """
         joints = [self.model.joint(name).id for name in leg.joints]
-        bends = [i for i, joint in enumerate(joints) if abs(self.data.xaxis[joint][1]) > _ACROSS]
-        ankle_height = -self.sole(leg)[2]
-        if len(bends) < 2 or bends[-2] == 0:
-            # No knee: as far as the first joint is above the ground.
-            return float(self.data.xanchor[joints[0]][2] + ankle_height)
-        knee, ankle = joints[bends[-2]], joints[bends[-1]]
-        hip = self._centre(joints[: bends[-2]])
-        thigh = self._from_axis(hip, knee)
-        shank = self._from_axis(self.data.xanchor[ankle], knee)
-        return thigh + shank + float(self.data.xanchor[ankle][2] + ankle_height)
+        knee = leg.joints.index(self.knee(leg))
+        if knee == 0:
+            # No hip: as far as the first joint is above the ground.
+            return float(self.data.xanchor[joints[0]][2] - self.sole(leg)[2])
+        hip = self._centre(joints[:knee])
+        ankle = self.data.xanchor[joints[self._ankle(leg, knee)]]
+        thigh = self._from_axis(hip, joints[knee])
+        shank = self._from_axis(ankle, joints[knee])
+        return thigh + shank + float(ankle[2] - self.sole(leg)[2])
+
+    def knee(self, leg: LegTable) -> str:
+        """Return the name of a leg's knee."""
+        return leg.joints[self._roles(leg).index(KNEE)]
+
+    def _ankle(self, leg: LegTable, knee: int) -> int:
+        """Return the place in a leg of the joint that pitches its foot, or of its last joint."""
+        found = self._roles(leg)
+        return found.index(ANKLE_PITCH) if ANKLE_PITCH in found[knee:] else len(found) - 1
+
+    def _roles(self, leg: LegTable) -> list[str]:
+        joints = [self.model.joint(name).id for name in leg.joints]
+        forward = self.data.xmat[1].reshape(3, 3)[:, 0]
+        return roles(self.data, joints, self.sole(leg), forward)
 
     def _centre(self, joints: list[int]) -> Floats:
         """Return the place (3,) that is nearest to the axes of joints, m."""
@@ -98,7 +110,7 @@ class Stance:
         return float(np.linalg.norm(along))
 
 
-def scale_of(stance: Stance, file: RobotFile) -> float:
+def scale_of(stance: Upright, file: RobotFile) -> float:
     """Return the length of a robot's legs over that of `qrio`'s, rounded to a thousandth."""
     if file.robot.scale is not None:
         return file.robot.scale
@@ -107,7 +119,7 @@ def scale_of(stance: Stance, file: RobotFile) -> float:
 
 
 def with_size(
-    described: Mapping[str, Any], scale: float, stance: Stance, file: RobotFile
+    described: Mapping[str, Any], scale: float, stance: Upright, file: RobotFile
 ) -> dict[str, Any]:
     """Return a robot's description with its scale, and with the lengths that its file leaves open.
 

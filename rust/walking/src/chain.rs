@@ -111,12 +111,12 @@ impl LegChain {
     }
 
     /// How much the angle of a joint grows by a turn of the torso to the left, in the upright stance.
-    pub(crate) fn per_turn(&self, slot: usize, rest_rad: &JointAngles) -> f64 {
-        let (_, sole) = self.hinges.posed(rest_rad);
+    pub(crate) fn per_turn(&self, slot: usize) -> f64 {
+        let (_, sole) = self.hinges.posed(&self.rest_rad);
         let turn = nalgebra::UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -SMALL_RAD);
         let hip = self.anatomy.sizes.hip;
         let turned = Isometry3::from_parts((hip - turn * hip).into(), turn) * sole;
-        let angle = |sole: &Isometry3<f64>| self.solve(sole, rest_rad).angles_rad[slot];
+        let angle = |sole: &Isometry3<f64>| self.solve(sole, &self.rest_rad).angles_rad[slot];
         (angle(&turned) - angle(&sole)) / SMALL_RAD
     }
 

@@ -168,7 +168,7 @@ impl LegSolver {
         match &self.form {
             SolvedBy::ClosedForm(form) if slot == 0 => form.yaw_per_turn(),
             SolvedBy::ClosedForm(_) => 0.0,
-            SolvedBy::Chain { chain, .. } => chain.per_turn(slot, &self.rest_rad),
+            SolvedBy::Chain { chain, .. } => chain.per_turn(slot),
         }
     }
 

@@ -86,6 +86,7 @@ impl Newton<'_> {
                     done,
                 };
             }
+            // With joints to spare there is always something to pull towards the stance.
             if done && !(spare && step == 0) {
                 break;
             }
