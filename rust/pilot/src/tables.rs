@@ -64,6 +64,7 @@ mod tests {
             length: 10.0,
             mass: 1000.0,
             disparity: 10.0,
+            period: 1.0,
         };
         for table in tables() {
             for one in table.parameters() {
@@ -83,6 +84,7 @@ mod tests {
             length: 2.0,
             mass: 8.0,
             disparity: 2.0,
+            period: 1.0,
         };
         let given = Tables::from([
             ("fog".to_owned(), json!({"cell": 0.05})),
@@ -104,7 +106,7 @@ mod tests {
     proptest! {
         #[test]
         fn the_defaults_of_every_size_hold_their_bounds_and_each_other(length in 0.5..5.0, density in 0.3..3.0) {
-            let scale = Scale { length, mass: density * length.powi(3), disparity: density };
+            let scale = Scale { length, mass: density * length.powi(3), disparity: density, period: density };
             for table in tables() {
                 let defaults = table.defaults_at(&scale);
                 let usable = table.check(&defaults);

@@ -10,6 +10,9 @@ const QRIO_KG: f64 = 7.0;
 /// Of what is a metre away `qrio`'s camera sees so many pixels' disparity: focal length times baseline.
 const QRIO_DISPARITY_M: f64 = 6.08;
 
+/// Time between two frames of `qrio`'s camera, seconds.
+const QRIO_PERIOD_S: f64 = 0.08;
+
 impl Description {
     /// Refuses a size that no robot has.
     pub(crate) fn check_size(&self) -> Result<(), BodyError> {
@@ -23,7 +26,7 @@ impl Description {
         })
     }
 
-    /// Its length, its mass and its camera's disparities over those of `qrio`. A robot whose scale is 1 has every number of `qrio`'s, whatever its mass.
+    /// Its length, its mass, its camera's disparities and period over those of `qrio`. A robot whose scale is 1 has every number of `qrio`'s, whatever its mass.
     pub fn size(&self) -> Scale {
         if self.scale == 1.0 {
             return Scale::ONE;
@@ -35,6 +38,7 @@ impl Description {
             length: self.scale,
             mass: mass_kg / QRIO_KG,
             disparity: disparity / QRIO_DISPARITY_M,
+            period: camera.period / QRIO_PERIOD_S,
         }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Robots that are alike move alike at equal Froude numbers: with lengths `s` times as large, times and speeds are `sqrt(s)` times
 //! as large, rates `1/sqrt(s)` times, and accelerations the same; forces go with the mass. What a unit has of length, time and force
-//! therefore says what becomes of a default. What is not the robot's own says so where it is declared, by its [`Owner`].
+//! therefore says what becomes of a default; a count of frames that stands for a time follows as a time does, and the camera's period.
+//! What is not the robot's own says so where it is declared, by its [`Owner`].
 
 use serde_json::{Map, Number, Value, json};
 
@@ -16,6 +17,9 @@ const OF_ROBOTS: [&str; 4] = [
     "costs.traversability.",
 ];
 
+/// Of a count of frames that stands for a time.
+const FRAMES: &str = "frames";
+
 /// Of a camera's noise that grows with the square of the range: it goes with focal length and baseline.
 const RANGE_NOISE: &str = "1/m";
 
@@ -28,13 +32,17 @@ pub struct Scale {
     pub mass: f64,
     /// By how many pixels its camera's two views differ at a range, over that one's: focal length times baseline.
     pub disparity: f64,
+    /// The time between two of its camera's frames over that one's.
+    pub period: f64,
 }
 
-/// Dimensions of a unit: quarters of the power of lengths, by which times are half as much, and the power of masses.
+/// Dimensions of a unit: quarters of the power of lengths, by which times are half as much, and the powers of masses and of a camera's
+/// period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Power {
     quarters: i32,
     mass: i32,
+    period: i32,
 }
 
 impl Scale {
@@ -43,6 +51,7 @@ impl Scale {
         length: 1.0,
         mass: 1.0,
         disparity: 1.0,
+        period: 1.0,
     };
 
     /// What a number with this unit is multiplied by; `None` for a unit that is not known.
@@ -57,7 +66,7 @@ impl Scale {
         if rest % 2 == 1 {
             factor *= root.sqrt();
         }
-        Some(factor * whole_power(self.mass, power.mass))
+        Some(factor * whole_power(self.mass, power.mass) * whole_power(self.period, power.period))
     }
 
     /// The default of a setting at this size; `None` where it is the same at any.
@@ -88,6 +97,12 @@ impl Scale {
                 let scaled = number.as_f64().zip(self.factor(unit));
                 json!(scaled.map(|(number, factor)| number * factor))
             }
+            Value::Number(number) if unit == FRAMES => {
+                let scaled = number.as_f64().zip(self.factor(unit));
+                let whole =
+                    scaled.map(|(number, factor)| (number * factor).round().max(1.0) as u64);
+                json!(whole.filter(|_| number.as_u64() != Some(0)).unwrap_or(0))
+            }
             other => other.clone(),
         }
     }
@@ -116,7 +131,7 @@ impl Scale {
 pub(crate) fn follows(key: &str, unit: &str, default: &Value) -> bool {
     let of_robot = OF_ROBOTS.iter().any(|table| key.starts_with(table));
     let has_power = |unit| power(unit).is_some_and(|power| power != Power::default());
-    of_robot && unit.split(", ").any(has_power) && has_number(default)
+    of_robot && unit.split(", ").any(has_power) && (has_number(default) || unit == FRAMES)
 }
 
 fn has_number(value: &Value) -> bool {
@@ -148,6 +163,10 @@ fn power(unit: &str) -> Option<Power> {
             "m" => sum.quarters += signed,
             "s" => sum.quarters += signed / 2,
             "N" | "kg" => sum.mass += signed / 4,
+            FRAMES => {
+                sum.quarters += signed / 2;
+                sum.period -= signed / 4;
+            }
             "1" | "-" | "rad" | "px" | "pixels" | "cells" => {}
             _ => return None,
         }
@@ -177,6 +196,8 @@ mod tests {
             noise: f64 = 0.02, "1/m" of camera, ANY;
             /// A count.
             count: usize = 3, "m", ANY;
+            /// A count of frames that stands for a time.
+            patience: u32 = 40, "frames", ANY;
             /// A length that need not be.
             room: Option<f64> = None, "m", ANY;
             /// An angle.
@@ -201,6 +222,7 @@ mod tests {
             length,
             mass,
             disparity: 4.0,
+            period: 2.0,
         }
     }
 
@@ -229,6 +251,7 @@ mod tests {
             ("rad/sqrt(m)", 0.5),
             ("rad", 1.0),
             ("px", 1.0),
+            ("frames", 1.0),
             ("1", 1.0),
             ("-", 1.0),
         ] {
@@ -244,7 +267,7 @@ mod tests {
         let table = TableDescription::of::<Kinds>();
         assert_eq!(
             table.defaults_at(&sized(2.0, 8.0)),
-            json!({"reach": 1.0, "noise": 0.005, "aside": [-0.2, 0.2], "near": [0.2, 0.2]})
+            json!({"reach": 1.0, "noise": 0.005, "patience": 28, "aside": [-0.2, 0.2], "near": [0.2, 0.2]})
         );
         assert_eq!(table.defaults_at(&Scale::ONE), json!({}));
         let other = TableDescription::of::<OfNoRobot>();

@@ -32,7 +32,7 @@ settings! {
         /// Stepping that was given up no farther away than this is not tried again until the robot has walked.
         elsewhere: f64 = 0.15, "m", POSITIVE;
         /// While the robot walks to a height change, footsteps are planned every so many frames.
-        plan_every: u64 = 6, "1", within(1.0, 1000.0);
+        plan_every: u64 = 6, "frames", within(1.0, 1000.0);
         /// The first look around may end after this time where footsteps lead to the goal, or the planner to a height change.
         first_look: f64 = 3.8, "s", within(0.0, 60.0);
         /// The planner finds no way for so long before steps are tried.

@@ -133,7 +133,7 @@ settings! {
         /// Share of a frame that is news to a search at least, since no two frames err quite alike.
         least_news: f64 = 0.1, "1", above_to(0.0, 1.0);
         /// Frames, half a minute of them, after which a search beside a place that fits ends.
-        frames: u32 = 200, "1", at_least(1.0);
+        frames: u32 = 200, "frames", at_least(1.0);
         /// One in so many of the guesses that are drawn anywhere is drawn at the place that is believed.
         believed: usize = 10, "1", at_least(1.0);
     }

@@ -40,11 +40,11 @@ settings! {
         /// Largest distance of a level surface from where it is known to lie: less than half of the lowest step.
         known_height: f64 = 0.007, "m", POSITIVE;
         /// Frames without any level surface for which the correction is still trusted.
-        hold_frames: u32 = 40, "1", NOT_NEGATIVE;
+        hold_frames: u32 = 40, "frames", NOT_NEGATIVE;
         /// Frames for which the correction is trusted when level surfaces are seen, but neither the ground nor one of known height.
-        hold_level_frames: u32 = 400, "1", NOT_NEGATIVE;
+        hold_level_frames: u32 = 400, "frames", NOT_NEGATIVE;
         /// Frames without any level surface after which the ground is searched anew, as at the start.
-        forget_frames: u32 = 75, "1", NOT_NEGATIVE;
+        forget_frames: u32 = 75, "frames", NOT_NEGATIVE;
         /// A surface tilted by more than this against the ground is no floor: steps of 15 mm laid together, treads of 20 cm apart,
         /// slope by 0.075.
         floor_tilt: f64 = 0.03, "rad", between(0.0, 0.5);

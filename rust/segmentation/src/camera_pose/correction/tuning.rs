@@ -36,12 +36,12 @@ settings! {
         farthest: f64 = 0.6, "m", POSITIVE;
         /// Frames with ground after which a track is settled. Before that the ground is searched as widely as at first, for the
         /// attitude settles in these frames, too, and a first find may be a bad one.
-        settled: u32 = 8, "1", within(1.0, 1e6);
+        settled: u32 = 8, "frames", within(1.0, 1e6);
         /// Frames with ground after which a track is seasoned: what contradicts it then is no floor.
-        seasoned: u32 = 25, "1", within(1.0, 1e6);
+        seasoned: u32 = 25, "frames", within(1.0, 1e6);
         /// Frames without ground after which a track that has not settled is given up: as many as the head takes to look elsewhere
         /// and come back.
-        young_misses: u32 = 40, "1", within(0.0, 1e6);
+        young_misses: u32 = 40, "frames", within(0.0, 1e6);
         /// Finds from afar that contradict a young track in a row after which it is given up.
         young_contradictions: u32 = 3, "1", within(0.0, 1e6);
         /// Tilt by which a find contradicts a young track: one of both was no ground.
