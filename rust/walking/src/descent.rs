@@ -5,7 +5,7 @@
 //! the same foot the leg ahead is steeper, as far as the ankle that stands can hold that.
 
 use geometry::GRAVITY_MPS2;
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use robot::{Body, LinkPoses, Side};
 
 use crate::config::GaitConfig;
@@ -16,7 +16,7 @@ use crate::tuning::DescentTuning;
 
 /// What of a robot's legs says how far forward the weight goes.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Descent {
+pub struct Descent {
     /// A step down that is lower than this is none, m.
     level_m: f64,
     /// How far the hips are ahead of the centre of mass of an upright robot, m.
@@ -36,11 +36,11 @@ struct DescendingLeg {
 
 impl Descent {
     /// Reads it from the body, whose joints are at `rest_rad` in the upright stance.
-    pub(crate) fn read(
-        body: &Body,
-        config: &GaitConfig,
-        rest_rad: &[f64],
-    ) -> Result<Self, WalkError> {
+    ///
+    /// # Errors
+    ///
+    /// A leg does not fit the inverse kinematics.
+    pub fn read(body: &Body, config: &GaitConfig, rest_rad: &[f64]) -> Result<Self, WalkError> {
         let tuning = &config.tuning;
         let mut poses = LinkPoses::default();
         body.pose_links(rest_rad, &mut poses)?;
@@ -65,7 +65,7 @@ impl Descent {
     }
 
     /// How much further forward than at `point` the foot that stands carries while `swing` is under way, m.
-    pub(crate) fn ahead_m(&self, point: &Vector2<f64>, stance: &FootPose, swing: &Swing) -> f64 {
+    pub fn ahead_m(&self, point: &Vector2<f64>, stance: &FootPose, swing: &Swing) -> f64 {
         let down = swing.to.z_m < stance.z_m - self.level_m;
         if swing.manner != Manner::Careful || !down {
             return 0.0;
@@ -88,7 +88,7 @@ fn reach_m(leg: &LegSolver, tuning: &DescentTuning) -> f64 {
     let length_m = tuning.stretched * leg.max_length_m;
     let reached = |ahead_m: f64| {
         let down_m = (length_m * length_m - ahead_m * ahead_m).max(0.0).sqrt();
-        let ankle = leg.hip() + nalgebra::Vector3::new(ahead_m, 0.0, -down_m);
+        let ankle = leg.hip() + Vector3::new(ahead_m, 0.0, -down_m);
         let sole = Translation3::from(ankle - leg.ankle_in_sole());
         leg.solve(
             &Isometry3::from_parts(sole, UnitQuaternion::identity()),
@@ -115,9 +115,83 @@ fn ankle_torque_nm(body: &Body, leg: &LegSolver, poses: &LinkPoses) -> f64 {
         .iter()
         .filter_map(|&joint| body.hinge(joint))
         .map(|(link, hinge)| {
-            let axis = poses.torso_from_link[link].rotation
-                * nalgebra::Vector3::from(hinge.axis).normalize();
+            let axis = poses.torso_from_link[link].rotation * Vector3::from(hinge.axis).normalize();
             hinge.peak_torque * axis.y.abs()
         })
         .fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::stance::UprightStance;
+    use crate::test_biped::{biped, config, description, foot_at};
+
+    const HALF_WIDTH_M: f64 = 0.0425;
+    const ANKLE_PITCHES: [usize; 2] = [5, 11];
+
+    /// The biped, its ankles stretching the foot by this angle at most.
+    fn stretching(most_rad: f64) -> Body {
+        let mut described = description();
+        for link in ANKLE_PITCHES {
+            let joint = described.links[link].joint.as_mut().unwrap();
+            assert!(joint.name.ends_with("ankle_pitch"), "{}", joint.name);
+            joint.range = [-1.4, most_rad];
+        }
+        Body::new(described).unwrap()
+    }
+
+    fn descent(body: &Body) -> Descent {
+        let rest = UprightStance::upright(body, &config().tuning.leg)
+            .unwrap()
+            .rest;
+        Descent::read(body, &config(), &rest).unwrap()
+    }
+
+    /// How far forward the right foot carries while the left one goes there.
+    fn ahead_m(descent: &Descent, forward_m: f64, up_m: f64, manner: Manner) -> f64 {
+        let (stance, mut to) = (
+            foot_at(0.0, -HALF_WIDTH_M),
+            foot_at(forward_m, HALF_WIDTH_M),
+        );
+        to.z_m = up_m;
+        let swing = Swing::new(Side::Left, manner, foot_at(0.0, HALF_WIDTH_M), to);
+        descent.ahead_m(&Vector2::new(0.0, -HALF_WIDTH_M), &stance, &swing)
+    }
+
+    #[test]
+    fn ankles_that_bend_far_enough_leave_the_weight_where_it_is() {
+        assert_eq!(
+            ahead_m(&descent(&biped()), 0.12, -0.04, Manner::Careful),
+            0.0
+        );
+    }
+
+    #[test]
+    fn only_careful_steps_down_take_the_weight_ahead() {
+        let descent = descent(&stretching(0.1));
+        assert!(ahead_m(&descent, 0.12, -0.04, Manner::Careful) > 0.0);
+        assert_eq!(ahead_m(&descent, 0.12, -0.04, Manner::Walk), 0.0);
+        assert_eq!(ahead_m(&descent, 0.12, 0.0, Manner::Careful), 0.0);
+        assert_eq!(ahead_m(&descent, 0.12, 0.04, Manner::Careful), 0.0);
+    }
+
+    proptest! {
+        #[test]
+        fn the_weight_goes_as_far_ahead_as_the_ankle_lacks_or_the_one_that_stands_can_hold(
+            most_rad in 0.0..0.6f64, forward_m in 0.0..0.14f64,
+        ) {
+            let descent = descent(&stretching(most_rad));
+            let [left, right] = &descent.legs;
+            let ahead_m = ahead_m(&descent, forward_m, -0.04, Manner::Careful);
+            let hip_m = ahead_m + descent.hips_ahead_m;
+            let lacks_m = forward_m + left.ankle_ahead_m - hip_m - left.reach_m;
+            let held_m = right.lever_m + right.ankle_ahead_m - ahead_m;
+            prop_assert!(ahead_m >= 0.0 && held_m >= 0.0);
+            prop_assert!(lacks_m < 1e-9 || held_m < 1e-9, "{lacks_m} {held_m}");
+            prop_assert!(ahead_m == 0.0 || lacks_m > -1e-9);
+        }
+    }
 }

@@ -18,7 +18,7 @@ mod closed_form;
 mod config;
 pub mod dcm;
 mod dcm_walker;
-mod descent;
+pub mod descent;
 mod drives;
 mod error;
 pub mod feet;
