@@ -158,8 +158,10 @@ class Reach:
     def _over(self, soles: list[tuple[float, float, float]], carries: int) -> Floats:
         """Return where the weight is when one foot carries it all, (x, y)."""
         sign = 1.0 - 2.0 * carries
-        x, y, _ = soles[carries]
-        return np.array([x, y - sign * self.gait["support_inward"]])
+        (x, y, z), goes = soles[carries], ("right", "left")[carries]
+        to_x, to_y, to_z = soles[1 - carries]
+        ahead = self.legs.carries_ahead(goes, (to_x - x, to_y - y, to_z - z))
+        return np.array([x + ahead, y - sign * self.gait["support_inward"]])
 
     def _swings(self, soles: list[tuple[float, float, float]], height_m: float) -> bool:
         """Whether the left foot gets there from beside the right one, which carries."""

@@ -1,11 +1,14 @@
 //! The legs' inverse kinematics alone, and the gait that a robot's folder asks for: what can be reached, before anything walks.
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use geometry::PlanarPose;
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use numpy::{PyArray1, ToPyArray};
 use pyo3::prelude::*;
 use robot::{Body, Side};
 use walking::GaitConfig;
+use walking::descent::Descent;
 use walking::leg::LegSolver;
+use walking::phase::{FootPose, Manner, Swing};
 
 use crate::error::{bad_setting, parse};
 use crate::stairs::side;
@@ -15,6 +18,7 @@ use crate::stairs::side;
 pub(crate) struct PyLegs {
     legs: [LegSolver; 2],
     gait: GaitConfig,
+    descent: Descent,
 }
 
 fn index(py: Python<'_>, name: &str) -> PyResult<usize> {
@@ -28,12 +32,14 @@ impl PyLegs {
     fn new(py: Python<'_>, description_json: &str) -> PyResult<Self> {
         let body =
             Body::new(parse(py, description_json)?).map_err(|error| bad_setting(py, &error))?;
-        let (gait, _) = GaitConfig::read(&body).map_err(|error| bad_setting(py, &error))?;
+        let (gait, stance) = GaitConfig::read(&body).map_err(|error| bad_setting(py, &error))?;
         let leg = |side| {
             LegSolver::new(&body, side, gait.max_extension, &gait.tuning.leg)
                 .map_err(|error| bad_setting(py, &error))
         };
         Ok(Self {
+            descent: Descent::read(&body, &gait, &stance.rest)
+                .map_err(|error| bad_setting(py, &error))?,
             legs: [leg(Side::Left)?, leg(Side::Right)?],
             gait,
         })
@@ -55,6 +61,20 @@ impl PyLegs {
         let found = leg.solve(&pose, leg.rest_rad());
         let angles_rad = &found.angles_rad[..leg.joints().len()];
         Ok((angles_rad.to_pyarray(py), found.reached))
+    }
+
+    /// How far ahead of its sole's middle the other foot carries while that of `side` goes to (x m, y m, z m) from there, m.
+    fn carries_ahead(&self, py: Python<'_>, side: &str, place: (f64, f64, f64)) -> PyResult<f64> {
+        let (x_m, y_m, z_m) = place;
+        let to = FootPose {
+            planar: PlanarPose::new(x_m, y_m, 0.0),
+            z_m,
+            ..FootPose::default()
+        };
+        let stance = FootPose::default();
+        let side = Side::BOTH[index(py, side)?];
+        let swing = Swing::new(side, Manner::Careful, stance, to);
+        Ok(self.descent.ahead_m(&Vector2::zeros(), &stance, &swing))
     }
 
     /// Of one leg: where its hip is in the torso's frame (x, y, z), thigh, shank, and the ankle's height over the sole, m.

@@ -67,6 +67,11 @@ impl LegChain {
         self.longest_m
     }
 
+    /// Which joint is the knee.
+    pub(crate) const fn knee_slot(&self) -> usize {
+        self.anatomy.knee
+    }
+
     /// What five joints leave open.
     pub(crate) fn left_open(&self) -> Option<&'static str> {
         self.anatomy.left_open.map(|axis| TURNS[axis])

@@ -27,6 +27,9 @@ struct Bend {
 }
 
 impl ClosedForm {
+    /// Which joint is the knee.
+    pub(crate) const KNEE: usize = 3;
+
     /// From hip to ankle it gets no longer than `longest_m` and no shorter than `shortest_m`.
     pub(crate) const fn new(geometry: LegGeometry, longest_m: f64, shortest_m: f64) -> Self {
         Self {

@@ -13,6 +13,7 @@ use crate::balance::{Balance, Sensed};
 use crate::capture::Capture;
 use crate::catching::Catching;
 use crate::config::GaitConfig;
+use crate::descent::Descent;
 use crate::drives::Drives;
 use crate::error::WalkError;
 use crate::feet::FeetControl;
@@ -71,7 +72,8 @@ impl DcmWalker {
         } = stance;
         let omega = (GRAVITY_MPS2 / com.z).sqrt();
         let planner = FootstepPlanner::new(&config, body);
-        let gait = Gait::new(&config, planner.clone(), feet);
+        let mut gait = Gait::new(&config, planner.clone(), feet);
+        gait.descent = Some(Descent::read(body, &config, &rest)?);
         let (joints, middle) = (rest.len(), gait.middle());
         Ok(Self {
             weight_n: body.mass_kg() * GRAVITY_MPS2,

@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 use robot::Side;
 
 use crate::config::GaitConfig;
+use crate::descent::Descent;
 use crate::footsteps::FootstepPlanner;
 use crate::listed::Listed;
 use crate::phase::{FootPose, GaitPhase, Manner, Swing};
@@ -23,6 +24,8 @@ pub struct Gait {
     /// Steps landed so far.
     pub steps_taken: u64,
     pub(crate) listed: Listed,
+    /// How the robot goes down.
+    pub(crate) descent: Option<Descent>,
     last: (Side, Manner),
 }
 
@@ -36,6 +39,7 @@ impl Gait {
             phase: GaitPhase::Standing,
             steps_taken: 0,
             listed: Listed::default(),
+            descent: None,
             last: (Side::Right, Manner::Walk),
         }
     }
@@ -49,20 +53,33 @@ impl Gait {
     /// `support_inward`, and forward by `support_forward` where it stands higher than the other one: the knee that lifts the body bears
     /// less so.
     pub fn support_point(&self, feet: &[FootPose; 2], side: Side) -> Vector2<f64> {
+        self.support_point_at(feet, side, self.config.support_inward, 0.0)
+    }
+
+    /// The same, so far towards the other foot, and so much further forward where what bears has room for it.
+    fn support_point_at(
+        &self,
+        feet: &[FootPose; 2],
+        side: Side,
+        inward_m: f64,
+        ahead_m: f64,
+    ) -> Vector2<f64> {
         let (foot, other) = (&feet[side.index()], &feet[side.other().index()]);
         let [rear, front] = foot
             .bearing
             .on_sole_m(0.5 * self.planner.sole_length_m, 0.0);
         let middle = 0.5 * (rear + front);
         let forward = self.config.support_forward * (foot.z_m - other.z_m).max(0.0);
-        let inward = -side.sign() * self.config.support_inward;
+        let inward = -side.sign() * inward_m;
         let reach = self.config.tuning.stance.support_room * (front - middle);
         let along = self
             .config
             .support_ahead
             .map_or(middle, |ahead| ahead.clamp(middle - reach, middle + reach));
         let room = reach - (along - middle);
-        let (x, y) = foot.planar.apply(along + forward.min(room), inward);
+        let (x, y) = foot
+            .planar
+            .apply(along + (forward + ahead_m).min(room), inward);
         Vector2::new(x, y)
     }
 
@@ -186,7 +203,7 @@ impl Gait {
     pub fn zmp(&self) -> Vector2<f64> {
         match &self.phase {
             GaitPhase::Standing => self.middle(),
-            GaitPhase::Single { swing, .. } => self.stance_point(swing.side.other()),
+            GaitPhase::Single { swing, .. } => self.carrying_point(&self.feet, swing),
             GaitPhase::Double {
                 elapsed_s,
                 duration_s,
@@ -206,8 +223,29 @@ impl Gait {
     pub(crate) fn shift_goal(&self, next: Option<&Swing>) -> Vector2<f64> {
         next.map_or_else(
             || self.middle(),
-            |swing| self.stance_point(swing.side.other()),
+            |swing| self.carrying_point(&self.feet, swing),
         )
+    }
+
+    /// Point under the foot that stands where it carries while `swing` is under way.
+    pub(crate) fn carrying_point(&self, feet: &[FootPose; 2], swing: &Swing) -> Vector2<f64> {
+        let side = swing.side.other();
+        if !swing.manner.is_careful() {
+            return self.support_point(feet, side);
+        }
+        let inward_m = self
+            .config
+            .climb_inward
+            .unwrap_or(self.config.support_inward);
+        let point = self.support_point_at(feet, side, inward_m, 0.0);
+        let stance = &feet[side.index()];
+        let ahead_m = self
+            .descent
+            .map_or(0.0, |descent| descent.ahead_m(&point, stance, swing));
+        if ahead_m > 0.0 {
+            return self.support_point_at(feet, side, inward_m, ahead_m);
+        }
+        point
     }
 
     /// Where a foot is to be now, without what the stabiliser adds.

@@ -109,7 +109,7 @@ impl LandingSearch {
         left_s: f64,
     ) -> Catch {
         let tuning = &self.config.tuning.catching;
-        let middle = gait.stance_point(swing.side.other());
+        let middle = gait.carrying_point(&gait.feet, swing);
         let reference = gait.reference(falling.omega, falling.task).dcm;
         let grown = libm::exp(falling.omega * left_s);
         let sought = Sought {

@@ -124,6 +124,19 @@ impl LegSolver {
         (along_m * along_m - aside_m * aside_m).max(0.0).sqrt()
     }
 
+    /// Where its ankle is in the frame of a sole, m.
+    pub const fn ankle_in_sole(&self) -> &Vector3<f64> {
+        &self.sizes.ankle_in_sole
+    }
+
+    /// Which of its joints is the knee.
+    pub(crate) const fn knee_slot(&self) -> usize {
+        match &self.form {
+            SolvedBy::ClosedForm(_) => ClosedForm::KNEE,
+            SolvedBy::Chain { chain, .. } => chain.knee_slot(),
+        }
+    }
+
     /// Height of the ankle over the sole, m.
     pub fn ankle_height_m(&self) -> f64 {
         self.sizes.ankle_in_sole.z

@@ -18,6 +18,7 @@ mod closed_form;
 mod config;
 pub mod dcm;
 mod dcm_walker;
+pub mod descent;
 mod drives;
 mod error;
 pub mod feet;

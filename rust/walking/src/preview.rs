@@ -65,7 +65,7 @@ impl Gait {
                 duration_s,
                 swing,
             } => {
-                let point = self.stance_point(swing.side.other());
+                let point = self.carrying_point(&self.feet, swing);
                 plan.add(point, point, duration_s - elapsed_s);
                 Some(*swing)
             }
@@ -75,7 +75,7 @@ impl Gait {
     /// Adds the steps behind `swing`, and the shift to the middle behind the last.
     fn coming(&self, mut swing: Swing, task: Task<'_>, plan: &mut ZmpPlan) {
         let mut feet = self.feet;
-        let mut stands = self.stance_point(swing.side.other());
+        let mut stands = self.carrying_point(&self.feet, &swing);
         for ahead in 1..self.config.tuning.preview.steps {
             feet[swing.side.index()] = swing.to;
             if swing.manner == Manner::Placed && matches!(task, Task::Stand(_)) {
@@ -84,8 +84,7 @@ impl Gait {
             let Some(next) = self.next_swing(&feet, swing.side, task, ahead) else {
                 break;
             };
-            let stance = next.side.other();
-            let point = self.support_point(&feet, stance);
+            let point = self.carrying_point(&feet, &next);
             plan.add(stands, point, next.manner.double_support_s(&self.config));
             plan.add(point, point, next.single_support_s(&self.config));
             stands = point;

@@ -35,6 +35,10 @@ impl GaitConfig {
             self.sole_margin *= share;
         }
         if !is_said("support_inward") {
+            // Farther in than so it falls that way before a careful step has landed.
+            if !is_said("climb_inward") {
+                self.climb_inward = Some(share * self.support_inward);
+            }
             self.support_inward += self.tuning.sole_fit.inward * 0.5 * (scaled_m - width_m);
         }
     }

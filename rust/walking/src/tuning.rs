@@ -28,6 +28,8 @@ settings! {
         pelvis: PelvisTuning;
         /// How the torso leans forward on high steps.
         lean: LeanTuning;
+        /// How the weight goes ahead on steps down.
+        descent: DescentTuning;
         /// How a heel lifts.
         heel: HeelTuning;
         /// Where a sole carries, and when feet stand side by side.
@@ -112,6 +114,19 @@ settings! {
         upright: f64 = 1e-4, "rad", above_to(0.0, 1.0);
         /// How often the range in which the lean is sought is halved.
         halvings: usize = 7, "1", within(1.0, 60.0);
+    }
+}
+
+settings! {
+    /// How far the weight goes forward over the foot that stands while the other one is put down on a lower level, where the ankle of that
+    /// one would come to its end.
+    pub struct DescentTuning("gait.tuning.descent") {
+        /// Share of the peak torque of the ankle that stands which that may take.
+        torque: f64 = 0.5, "1", SHARE;
+        /// How long the leg that goes down is taken to be, as a share of the longest.
+        stretched: f64 = 0.999, "1", above_to(0.0, 1.0);
+        /// How often the range in which the reach of that leg is sought is halved.
+        halvings: usize = 12, "1", within(1.0, 60.0);
     }
 }
 
