@@ -35,6 +35,8 @@ settings! {
         hip_stretch: Option<f64> = None, "rad", between(0.0, 1.5);
         /// Where the foot carries: this far from the sole's middle towards the other foot.
         support_inward: f64 = 0.005, "m", within(-1.0, 1.0);
+        /// The same while a careful step comes or is under way: the robot stands on one foot for long; without it, `support_inward`.
+        climb_inward: Option<f64> = None, "m", within(-1.0, 1.0);
         /// Where along the sole it carries, forward of the sole's middle, as far as that lies in the middle half of what bears; without
         /// it, in the middle of what bears.
         support_ahead: Option<f64> = None, "m", within(-1.0, 1.0);

@@ -46,7 +46,7 @@ impl Gait {
     }
 
     /// Point under one of `feet` where it is to carry: the middle of what bears or, near it, `support_ahead`; towards the other foot by
-    /// `support_inward`, and forward by `support_forward` where it stands higher than the other one: the knee that lifts the body bears
+    /// `support_inward` or `climb_inward`, and forward by `support_forward` where it stands higher than the other one: the knee that lifts the body bears
     /// less so.
     pub fn support_point(&self, feet: &[FootPose; 2], side: Side) -> Vector2<f64> {
         let (foot, other) = (&feet[side.index()], &feet[side.other().index()]);
@@ -55,7 +55,7 @@ impl Gait {
             .on_sole_m(0.5 * self.planner.sole_length_m, 0.0);
         let middle = 0.5 * (rear + front);
         let forward = self.config.support_forward * (foot.z_m - other.z_m).max(0.0);
-        let inward = -side.sign() * self.config.support_inward;
+        let inward = -side.sign() * self.inward_m();
         let reach = self.config.tuning.stance.support_room * (front - middle);
         let along = self
             .config
@@ -64,6 +64,24 @@ impl Gait {
         let room = reach - (along - middle);
         let (x, y) = foot.planar.apply(along + forward.min(room), inward);
         Vector2::new(x, y)
+    }
+
+    /// How far from the sole's middle a foot is to carry, towards the other one, m.
+    fn inward_m(&self) -> f64 {
+        let manner = match &self.phase {
+            GaitPhase::Single { swing, .. }
+            | GaitPhase::Double {
+                next: Some(swing), ..
+            } => swing.manner,
+            GaitPhase::Standing | GaitPhase::Double { next: None, .. } => self.last.1,
+        };
+        let walks_m = self.config.support_inward;
+        let climbs_m = self.config.climb_inward.unwrap_or(walks_m);
+        if manner.is_careful() {
+            climbs_m
+        } else {
+            walks_m
+        }
     }
 
     /// Midway between the feet's supporting points.
