@@ -7,17 +7,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from treadwell.random_streams import stream
-from treadwell.senses.camera_error import CameraErrorBounds, draw_camera_error, rotation_of
+from treadwell.senses.camera_error import (
+    CameraErrorBounds,
+    draw_camera_error,
+    rotation_of,
+    turning_as,
+)
 from treadwell.senses.depth import DepthCamera, Pinhole
 
-MODEL = mujoco.MjModel.from_xml_string("""
+XML = """
 <mujoco><worldbody><body name="pelvis" pos="0 0 0.3" euler="0 0 40"><freejoint/><geom size="0.05"/>
   <body pos="0 0 0.05"><joint name="waist" axis="0 1 0"/><geom size="0.05"/>
     <body pos="0 0 0.2"><joint name="pan" axis="0 0 1"/><geom size="0.02"/>
       <body><joint name="tilt" axis="0 1 0"/><geom size="0.05"/>
         <camera name="eye" pos="0.04 0.03 0.03" xyaxes="0 -1 0 0 0 1"/>
 </body></body></body></body></worldbody></mujoco>
-""")
+"""
+MODEL = mujoco.MjModel.from_xml_string(XML)
 JOINTS = ("waist", "pan", "tilt")
 WEIGHTS = (0.25, 1.0, 1.0)
 BOUNDS = CameraErrorBounds(roll_pitch=np.radians(7.0), yaw=np.radians(1.0), position=0.01)
@@ -60,6 +66,15 @@ def test_the_joints_take_what_their_axes_allow_and_the_mount_takes_the_rest() ->
     assert np.degrees(pan) < 1.6
     assert np.degrees(np.max(rests)) == pytest.approx(7.0, rel=0.1)
     assert np.degrees(np.max(leans)) < 1.0
+
+
+def test_a_waist_that_rolls_takes_nothing_of_what_no_neck_can_take() -> None:
+    rolls = mujoco.MjModel.from_xml_string(XML.replace('axis="0 1 0"', 'axis="1 0 0"', 1))
+    neck = ("pan", "tilt")
+    assert turning_as(MODEL, "eye", ("waist",), neck) == ("waist",)
+    assert turning_as(rolls, "eye", ("waist",), neck) == ()
+    assert turning_as(MODEL, "eye", ("waist",), ()) == ()
+    assert turning_as(MODEL, "eye", (), neck) == ()
 
 
 def test_no_error_is_none() -> None:

@@ -9,6 +9,7 @@ from robot_builders import foreign_robot, qrio_copy
 
 from treadwell.errors import InputError
 from treadwell.robot.load import Robot, load_robot
+from treadwell.robot.model_gaps import GEAR_SOLREF, straighten_ties
 
 
 @pytest.fixture(scope="module")
@@ -140,3 +141,18 @@ def test_the_floor_of_a_scene_is_no_part_of_a_robot(tmp_path: Path) -> None:
     floor = '<worldbody><geom name="floor" type="plane" size="1 1 1"/>'
     model = load_robot(_with(tmp_path, "qrio.xml", "<worldbody>", floor)).nominal
     assert model.ngeom == load_robot("qrio").nominal.ngeom
+
+
+def test_a_gear_is_rigid_where_its_model_does_not_say_how_it_gives() -> None:
+    def solved(says: str) -> float:
+        spec = mujoco.MjSpec.from_string(f"""
+            <mujoco><worldbody><body><geom size="0.1"/><joint name="motor"/>
+              <body pos="0 0 1"><geom size="0.1"/><joint name="leg"/></body></body></worldbody>
+              <actuator><motor joint="motor"/></actuator>
+              <equality><joint joint1="leg" joint2="motor" polycoef="0 2 0 0 0" {says}/></equality>
+            </mujoco>""")
+        straighten_ties(spec, {"motor"}, "gear")
+        return float(spec.compile().eq_solref[0, 0])
+
+    assert solved("") == GEAR_SOLREF[0]
+    assert solved('solref="0.03 1"') == 0.03

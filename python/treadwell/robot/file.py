@@ -193,7 +193,9 @@ class EncodersTable(Table):
     play: AngleError = 0.0
     """Whole lost motion of a gear, rad; encoders sit on the motors' side of it."""
     leg_offset: AngleError = 0.0
-    """Bound of the constant error of a leg's encoder, rad."""
+    """Bound of the constant error of the encoder of a leg, and of a trunk's joint that turns the
+    camera as no joint of the neck does, rad.
+    """
     camera_roll_pitch_error: AngleError = 0.0
     """Bound of the camera's constant error in roll and pitch, rad."""
     camera_yaw_error: AngleError = 0.0

@@ -9,6 +9,9 @@ from treadwell.robot.surfaces import SEEN_GROUPS
 
 BASE = "base"
 """Name that a free joint without one gets."""
+GEAR_SOLREF = (0.004, 1.0)
+GEAR_SOLIMP = (0.999, 0.9999, 0.0001, 0.5, 2.0)
+"""How hard the joints of a gear hold together, as MuJoCo's `solref` and `solimp` have it."""
 
 
 def fill_gaps(spec: mujoco.MjSpec) -> None:
@@ -38,6 +41,7 @@ def straighten_ties(spec: mujoco.MjSpec, motors: set[str], what: str) -> None:
     """
     if not len(list(spec.equalities)):
         return
+    _stiffen_gears(spec)
     model = compiled(spec, what)
     numbers = {model.joint(name).id for name in motors if _has_joint(model, name)}
     numbers = numbers or drivers(model)
@@ -46,6 +50,18 @@ def straighten_ties(spec: mujoco.MjSpec, motors: set[str], what: str) -> None:
         return
     loops = {joint for joint, tie in ties.items() if tie.loop}
     _replace(spec, model, ties, loops)
+
+
+def _stiffen_gears(spec: mujoco.MjSpec) -> None:
+    """Make gears rigid of which the model does not say how they give: `[encoders]` has their play.
+
+    By MuJoCo's defaults, which are made for contacts, a leg's gear winds up by 3 degrees.
+    """
+    plain = mujoco.MjSpec().add_equality()
+    for equality in spec.equalities:
+        says = np.any(equality.solref != plain.solref) or np.any(equality.solimp != plain.solimp)
+        if equality.type == mujoco.mjtEq.mjEQ_JOINT and not says:
+            equality.solref, equality.solimp = GEAR_SOLREF, GEAR_SOLIMP
 
 
 def _is_straight(model: mujoco.MjModel, number: int, motors: set[int]) -> bool:
@@ -71,6 +87,7 @@ def _replace(
             spec.delete(equality)
     for joint, tie in ties.items():
         equality = spec.add_equality(type=mujoco.mjtEq.mjEQ_JOINT)
+        equality.solref, equality.solimp = GEAR_SOLREF, GEAR_SOLIMP
         equality.objtype = mujoco.mjtObj.mjOBJ_JOINT
         equality.name1, equality.name2 = model.joint(joint).name, model.joint(tie.leader).name
         data = np.zeros(len(equality.data))

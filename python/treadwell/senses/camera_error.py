@@ -11,6 +11,9 @@ from treadwell.senses.depth import MUJOCO_FROM_OPTICAL, Mount
 
 Floats = NDArray[np.float64]
 
+SAME_AXIS = 0.2
+"""Sine of the angle from the plane of the neck's axes within which a trunk's joint turns alike."""
+
 
 @dataclass(frozen=True)
 class CameraErrorBounds:
@@ -98,6 +101,24 @@ def draw_camera_error(
         translation=rotation.T @ (read_position - shift - position),
     )
     return CameraError(offsets, mount)
+
+
+def turning_as(
+    model: mujoco.MjModel, camera: str, trunk: Sequence[str], neck: Sequence[str]
+) -> tuple[str, ...]:
+    """Return the joints of the trunk that turn the camera as those of the neck can, too.
+
+    Where no joint of the neck turns it so, the camera's error is none of the trunk's encoders: the
+    robot stands by these, and they are set as well as the legs'.
+    """
+    data = mujoco.MjData(model)
+    if model.nkey > 0:
+        mujoco.mj_resetDataKeyframe(model, data, 0)
+    _, _, of_trunk, _ = _posture(model, data, camera, trunk)
+    _, _, of_neck, _ = _posture(model, data, camera, neck)
+    beside = of_trunk - of_neck @ np.linalg.pinv(of_neck) @ of_trunk
+    apart = np.linalg.norm(beside, axis=0)
+    return tuple(joint for joint, far in zip(trunk, apart, strict=True) if far < SAME_AXIS)
 
 
 def _posture(

@@ -26,6 +26,7 @@ from treadwell.senses.camera_error import (
     CameraErrorBounds,
     draw_camera_error,
     rotation_of,
+    turning_as,
 )
 from treadwell.senses.depth import DepthCamera, Mount, Pinhole
 from treadwell.senses.depth_sensor import DepthSensor, brightness
@@ -225,23 +226,28 @@ class Sensors:
         for leg in (robot.file.legs.left, robot.file.legs.right):
             at = [self._joint_order[joint] for joint in leg.joints]
             offsets[at] = numbers.uniform(-table.leg_offset, table.leg_offset, len(at))
-        for joint, offset in zip(_camera_joints(robot.file), error.offsets, strict=True):
+        trunk, neck = _camera_joints(robot.nominal, robot.file)
+        for joint, offset in zip([*trunk, *neck], error.offsets, strict=True):
             offsets[self._joint_order[joint]] = offset
+        for joint in robot.file.trunk.joints:
+            if joint not in trunk:
+                offset = numbers.uniform(-table.leg_offset, table.leg_offset)
+                offsets[self._joint_order[joint]] = offset
         return EncoderSenses(robot.joints, table.quantum, offsets, robot.ties)
 
 
-def _camera_joints(file: RobotFile) -> tuple[str, ...]:
-    """Return the joints whose encoders make the camera's pose wrong: trunk, then neck."""
-    turned = (file.head.pan, file.head.tilt)
-    return (*file.trunk.joints, *(joint for joint in turned if joint is not None))
+def _camera_joints(model: mujoco.MjModel, file: RobotFile) -> tuple[list[str], list[str]]:
+    """Return the joints of trunk and neck whose encoders make the camera's pose wrong."""
+    neck = [joint for joint in (file.head.pan, file.head.tilt) if joint is not None]
+    return [*turning_as(model, file.camera.name, file.trunk.joints, neck)], neck
 
 
 def _camera_error(
     model: mujoco.MjModel, file: RobotFile, settings: SensorSettings, rng: np.random.Generator
 ) -> CameraError:
-    joints = _camera_joints(file)
-    trunk = len(file.trunk.joints)
-    weights = [TRUNK_WEIGHT] * trunk + [1.0] * (len(joints) - trunk)
+    trunk, neck = _camera_joints(model, file)
+    joints = [*trunk, *neck]
+    weights = [TRUNK_WEIGHT] * len(trunk) + [1.0] * len(neck)
     table = file.encoders
     bounds = CameraErrorBounds(
         _either(settings.camera_roll_pitch_error, table.camera_roll_pitch_error),

@@ -10,7 +10,9 @@ use crate::config::GaitConfig;
 
 impl GaitConfig {
     /// Sets what `[gait]` does not say: a quicker step, after which an error has grown as much less as the sole is narrower; a margin
-    /// that is the same share of the sole; and the weight further in. `omega`: of the pendulum, 1/s.
+    /// and a side step that are the same share of the sole; the weight further in, but not in careful steps, in which a foot carries
+    /// for longer than a fall to either side takes; and feet nearer to each other, for what a step does wrong goes with how far the
+    /// weight sways, and with how far a leg is thrown aside. `omega`: of the pendulum, 1/s.
     pub(crate) fn fit_soles(&mut self, body: &Body, said: &serde_json::Value, omega: f64) {
         let description = body.description();
         let width_m = Side::BOTH
@@ -34,12 +36,22 @@ impl GaitConfig {
         if !is_said("sole_margin") {
             self.sole_margin *= share;
         }
+        if !is_said("max_sideways") {
+            self.max_sideways *= share;
+        }
+        let room_m = (0.5 * width_m - self.sole_margin).max(0.0);
         if !is_said("support_inward") {
-            // Farther in than so it falls that way before a careful step has landed.
             if !is_said("climb_inward") {
-                self.climb_inward = Some(share * self.support_inward);
+                self.climb_inward = Some(self.support_inward * share);
             }
-            self.support_inward += self.tuning.sole_fit.inward * 0.5 * (scaled_m - width_m);
+            let lacks_m = 0.5 * (scaled_m - width_m);
+            let inward_m = self.support_inward + self.tuning.sole_fit.inward * lacks_m;
+            self.support_inward = inward_m.min(room_m);
+        }
+        if !is_said("stance_width") {
+            let enough_m = self.tuning.sole_fit.apart * room_m + 2.0 * self.support_inward;
+            let least_m = self.tuning.sole_fit.narrowest * self.stance_width;
+            self.stance_width = enough_m.clamp(least_m, self.stance_width);
         }
     }
 }
@@ -69,16 +81,30 @@ mod tests {
         assert!(narrow.step_time < scaled.step_time);
         assert!(narrow.sole_margin < scaled.sole_margin);
         assert!(narrow.support_inward > scaled.support_inward);
+        assert!(narrow.max_sideways < scaled.max_sideways);
+        assert!(
+            narrow.climb_inward.unwrap() < scaled.support_inward && scaled.climb_inward.is_none()
+        );
+    }
+
+    #[test]
+    fn however_narrow_a_sole_is_it_carries_on_itself_and_the_legs_clear_each_other() {
+        let nothing = serde_json::Value::Null;
+        let (least, upright) = (gait(0.02, nothing.clone()), gait(0.15, nothing));
+        assert!(least.support_inward <= 0.01 - least.sole_margin);
+        let share = least.stance_width / upright.stance_width;
+        assert!((share - least.tuning.sole_fit.narrowest).abs() < 1e-12);
     }
 
     #[test]
     fn what_the_file_says_stays() {
-        let said =
-            serde_json::json!({"step_time": 0.7, "support_inward": 0.0, "sole_margin": 0.02});
+        let said = serde_json::json!({"step_time": 0.7, "support_inward": 0.0, "sole_margin": 0.02,
+                "max_sideways": 0.1, "stance_width": 0.2});
         let narrow = gait(0.1, said);
         assert_eq!(
             (narrow.step_time, narrow.support_inward, narrow.sole_margin),
             (0.7, 0.0, 0.02)
         );
+        assert_eq!((narrow.max_sideways, narrow.stance_width), (0.1, 0.2));
     }
 }

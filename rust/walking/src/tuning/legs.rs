@@ -43,5 +43,10 @@ settings! {
         quickest: f64 = 0.6, "1", above_to(0.0, 1.0);
         /// How far the weight goes inwards, as a share of what half a sole lacks.
         inward: f64 = 0.25, "1", SHARE;
+        /// The feet stand nearer to each other where they carry farther apart than so many times what half a sole leaves on either
+        /// side of its middle.
+        apart: f64 = 2.4, "1", POSITIVE;
+        /// Least distance of the feet, as a share of that in the upright stance: the legs clear each other, in turns too.
+        narrowest: f64 = 0.9, "1", above_to(0.0, 1.0);
     }
 }
