@@ -193,7 +193,12 @@ class Draft:
         filled = (
             "" if sole.filled > 0.8 else f"  # it fills {100 * sole.filled:.0f} % of its outline"
         )
-        turned = ""
+        plate, turned = "", ""
+        if sole.plate:
+            plate = (
+                f"plate = {sole.plate:.3g}".ljust(32)
+                + "# the model's foot stands on points: a plate over them, which edges hold\n"
+            )
         if sole.orientation is not None:
             numbers = ", ".join(f"{value:.6f}" for value in sole.orientation)
             turned = f"orientation = [{numbers}]  # the link's axes are not ahead, left and up\n"
@@ -201,7 +206,7 @@ class Draft:
             f"\n[legs.{leg.side}]".ljust(33) + f"# {', '.join(leg.roles)}\njoints = [{names}]\n"
             f"[legs.{leg.side}.sole]\nlink = {toml(leg.foot)}\n"
             f"position = [{x:.4f}, {y:.4f}, {z:.5f}]\n{turned}"
-            f"length = {sole.length:.4f}\nwidth = {sole.width:.4f}{filled}\n"
+            f"length = {sole.length:.4f}\nwidth = {sole.width:.4f}{filled}\n{plate}"
         )
 
     def _trunk(self, upper: UpperBody) -> str:
