@@ -18,6 +18,7 @@ from treadwell.robot.file import LegTable, RobotFile
 from treadwell.robot.keyframes import STAND
 from treadwell.robot.loops import ties_of
 from treadwell.robot.model_gaps import fill_gaps, let_feet_touch, straighten_ties
+from treadwell.robot.motors_found import SAME_FOR_ALL
 from treadwell.robot.surfaces import SEEN_GROUPS
 from treadwell.robot.turned_links import turn_foot
 
@@ -125,11 +126,15 @@ def _replace_servos(spec: mujoco.MjSpec, file: RobotFile) -> None:
     # One that another one's motor turns has none of its own.
     tied = {tie.name1 for tie in spec.equalities if tie.type == mujoco.mjtEq.mjEQ_JOINT}
     kept: set[str] = set()
+    # A bound that is alike on all and far above their torques is no motor's.
+    one_for_all = len({tuple(actuator.ctrlrange) for actuator in spec.actuators}) == 1
     changed = False
     for actuator in list(spec.actuators):
         name = actuator.target
         if name in peaks and name not in kept and _is_plain_motor(actuator, spec):
             kept.add(name)
+            if one_for_all and actuator.ctrlrange[1] > SAME_FOR_ALL * peaks[name]:
+                actuator.ctrlrange = [-peaks[name], peaks[name]]
         elif name in peaks or not _moves_joint(actuator):
             spec.delete(actuator)
             changed = True

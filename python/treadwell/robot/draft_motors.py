@@ -105,10 +105,13 @@ def gait_of(
         mass_kg: of the robot.
         scale: of the robot.
     """
-    ankle = fitting.servo(motors[ANKLE_PITCH], ANKLE_PITCH, 1.0)
-    stiffer = ankle.kp / REFERENCE_ANKLE / (mass_kg / REFERENCE_MASS_KG)
-    found = {"ankle_gain": ANKLE_GAIN / stiffer / scale**0.5}
-    slowest = min(fitting.servo(motors[role], role, 1.0).speed for role in (HIP_PITCH, KNEE))
+    found = {}
+    if ANKLE_PITCH in motors:
+        ankle = fitting.servo(motors[ANKLE_PITCH], ANKLE_PITCH, 1.0)
+        stiffer = ankle.kp / REFERENCE_ANKLE / (mass_kg / REFERENCE_MASS_KG)
+        found["ankle_gain"] = ANKLE_GAIN / stiffer / scale**0.5
+    bending = [role for role in (HIP_PITCH, KNEE) if role in motors]
+    slowest = min(fitting.servo(motors[role], role, 1.0).speed for role in bending)
     slower = slowest * scale**0.5 / REFERENCE_SPEED
     if slower < SLOW:
         found["climb_speed"] = CLIMB_SPEED * slower * scale**0.5
