@@ -6,7 +6,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from biped_builders import BOX_FOOT, SIX, biped, leg, robot_folder
+from biped_builders import BOX_FOOT, HEAD, SIX, biped, leg, robot_folder
 from robot_builders import foreign_mjcf, qrio_copy
 
 from treadwell.errors import InputError
@@ -143,3 +143,14 @@ def test_a_bound_of_all_controls_is_no_torque_and_the_draft_fits(tmp_path: Path)
     assert all(group["peak_torque"] < 20.0 for group in told["motors"].values())
     report = report_on(folder)
     assert report["fits"], report["problems"]
+
+
+@pytest.mark.parametrize(("most", "down"), [("1.3", 0.0), ("0.5", 0.54)])
+def test_a_camera_looks_down_as_far_as_the_head_cannot_nod(
+    tmp_path: Path, most: str, down: float
+) -> None:
+    head = HEAD.format(camera="").replace('range="-0.9 1"', f'range="-0.9 {most}"')
+    folder = robot_folder(tmp_path, biped(SIX, head=head))
+    told = tomllib.loads(write_template(folder).read_text(encoding="utf-8"))
+    assert told["camera"]["mount"]["down"] == pytest.approx(down, abs=0.01)
+    assert load_folder(folder).file.head.tilt == "head.tilt"

@@ -32,7 +32,6 @@ BASELINE_M, MOST_BASELINE_M = 0.06, 0.2
 """Between the lenses of a stereo camera: by the robot's size, up to a limit."""
 CLEAR_M = 0.02
 """How much wider than the robot the cylinder is that holds it."""
-ANGLE_ROUNDED = 5
 LEVEL_RAD = 1e-3
 CAMERA = """
 [camera]
@@ -238,7 +237,7 @@ class Draft:
             quat = np.empty(4)
             mujoco.mju_mat2Quat(quat, axes.T.reshape(-1))
             lines += f"orientation = [{', '.join(f'{value:.6f}' for value in quat)}]\n"
-        lines += "down = 0.0\n"
+        lines += f"down = {head.down:.2f}\n"
         if turns:
             lines += "pan_tilt = true                 # on a small unit of its own that turns it\n"
         return CAMERA.format(name='"depth"', mount=lines, baseline=baseline)

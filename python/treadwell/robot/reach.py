@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import mujoco
@@ -243,9 +243,9 @@ class Reach:
         mujoco.mj_kinematics(model, data)
         return not self._missed
 
-    def _at_end(self, leg: LegTable, angles: Sequence[float]) -> str | None:
+    def _at_end(self, leg: LegTable, angles: Floats) -> str | None:
         """Return a joint of a leg that is at the end of its range, the lowest of them; or None."""
-        for name, angle in zip(reversed(leg.joints), reversed(angles), strict=True):
+        for name, angle in zip(reversed(leg.joints), angles[::-1], strict=True):
             low, high = self._model.joint(name).range
             if not low + END_RAD < angle < high - END_RAD:
                 return f"{name} ends at {low if angle < 0.5 * (low + high) else high:.2f} rad"
