@@ -4,10 +4,13 @@ import tomllib
 from pathlib import Path
 
 import mujoco
+import numpy as np
 import pytest
+from biped_builders import BOX_FOOT, HEAD, SIX, biped, leg, robot_folder
 from robot_builders import foreign_mjcf, qrio_copy
 
 from treadwell.errors import InputError
+from treadwell.robot.anatomy import Anatomy
 from treadwell.robot.load import load_folder, load_robot
 from treadwell.robot.report import report_on
 from treadwell.robot.template import draft, write_template
@@ -59,3 +62,95 @@ def test_a_model_without_two_legs_has_no_draft() -> None:
     )
     with pytest.raises(InputError, match=r"stands on 1 foot \(body 1\): two legs"):
         draft("ball", "ball.xml", model)
+
+
+CORNERS = "".join(
+    f'<geom type="sphere" size="0.005" pos="{x} {y} -0.03"/>'
+    for x in (-0.04, 0.07)
+    for y in (-0.03, 0.03)
+)
+
+
+@pytest.mark.parametrize(("foot", "plate"), [(CORNERS, 0.01), (BOX_FOOT, None)])
+def test_a_foot_on_points_gets_the_plate_that_they_stand_for(
+    tmp_path: Path, foot: str, plate: float | None
+) -> None:
+    folder = robot_folder(tmp_path, biped(SIX, foot))
+    sole = tomllib.loads(write_template(folder).read_text(encoding="utf-8"))["legs"]["left"]["sole"]
+    assert sole.get("plate") == (None if plate is None else pytest.approx(plate))
+    model = load_folder(folder).nominal
+    boxes = [
+        geom
+        for geom in range(model.ngeom)
+        if model.geom_bodyid[geom] == model.body(sole["link"]).id
+        and model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_BOX
+    ]
+    assert len(boxes) == 1
+    if plate is not None:
+        half = model.geom_size[boxes[0]]
+        assert half == pytest.approx([0.055, 0.03, 0.005])
+        bottom = model.geom_pos[boxes[0]] - (0.0, 0.0, half[2])
+        assert bottom == pytest.approx(sole["position"], abs=1e-9)
+        # What touches the ground now is the sole that was drafted.
+        seen = Anatomy.of(model).legs()["left"].sole
+        assert (seen.length, seen.width) == pytest.approx((sole["length"], sole["width"]))
+        assert seen.plate == 0.0
+
+
+def _stance(folder: Path) -> tuple[dict[str, float], float]:
+    """Return the drafted angles, and how far the feet stand apart, m."""
+    told = tomllib.loads(write_template(folder).read_text(encoding="utf-8"))
+    robot = load_folder(folder)
+    data = mujoco.MjData(robot.nominal)
+    data.qpos[:] = robot.stand_qpos
+    mujoco.mj_kinematics(robot.nominal, data)
+    places = []
+    for side in ("left", "right"):
+        sole = told["legs"][side]["sole"]
+        body = data.body(sole["link"])
+        places.append(body.xpos + body.xmat.reshape(3, 3) @ np.array(sole["position"]))
+    return told["stand"], float(places[0][1] - places[1][1])
+
+
+def test_feet_far_wider_than_the_hips_come_together_and_others_stay(tmp_path: Path) -> None:
+    _, near = _stance(robot_folder(tmp_path, biped(SIX), "near"))
+    assert near == pytest.approx(0.1, abs=1e-3)
+    legs = [
+        leg(side, SIX, BOX_FOOT).replace('pos="0 0 -0.12"', f'pos="0 {aside} -0.12"')
+        for side, aside in (("left", 0.02), ("right", -0.02))
+    ]
+    _, apart = _stance(robot_folder(tmp_path, biped(SIX, legs="".join(legs)), "wide"))
+    assert apart == pytest.approx(near, abs=5e-3)
+
+
+def test_the_knees_bend_less_where_an_ankle_leaves_no_room_to_lift_the_foot(
+    tmp_path: Path,
+) -> None:
+    bent, _ = _stance(robot_folder(tmp_path, biped(SIX), "free"))
+    stiff = biped(SIX)
+    for side in ("left", "right"):
+        joint = f'name="{side}_4_pitch" axis="0 1 0" range="-2 1.2"'
+        assert joint in stiff
+        stiff = stiff.replace(joint, f'name="{side}_4_pitch" axis="0 1 0" range="-0.5 1.2"')
+    straight, _ = _stance(robot_folder(tmp_path, stiff, "stiff"))
+    assert 0.3 < straight["left_3_knee"] < 0.8 < bent["left_3_knee"]
+
+
+def test_a_bound_of_all_controls_is_no_torque_and_the_draft_fits(tmp_path: Path) -> None:
+    motors = '<motor name="{0}" joint="{0}" ctrlrange="-100 100"/>'
+    folder = robot_folder(tmp_path, biped(SIX, motors=motors))
+    told = tomllib.loads(write_template(folder).read_text(encoding="utf-8"))
+    assert all(group["peak_torque"] < 20.0 for group in told["motors"].values())
+    report = report_on(folder)
+    assert report["fits"], report["problems"]
+
+
+@pytest.mark.parametrize(("most", "down"), [("1.3", 0.0), ("0.5", 0.54)])
+def test_a_camera_looks_down_as_far_as_the_head_cannot_nod(
+    tmp_path: Path, most: str, down: float
+) -> None:
+    head = HEAD.format(camera="").replace('range="-0.9 1"', f'range="-0.9 {most}"')
+    folder = robot_folder(tmp_path, biped(SIX, head=head))
+    told = tomllib.loads(write_template(folder).read_text(encoding="utf-8"))
+    assert told["camera"]["mount"]["down"] == pytest.approx(down, abs=0.01)
+    assert load_folder(folder).file.head.tilt == "head.tilt"

@@ -18,6 +18,7 @@ from treadwell.robot.file import LegTable, RobotFile
 from treadwell.robot.keyframes import STAND
 from treadwell.robot.loops import ties_of
 from treadwell.robot.model_gaps import fill_gaps, let_feet_touch, straighten_ties
+from treadwell.robot.motors_found import SAME_FOR_ALL
 from treadwell.robot.surfaces import SEEN_GROUPS
 from treadwell.robot.turned_links import turn_foot
 
@@ -45,6 +46,7 @@ def complete(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
     legs = {"legs.left": file.legs.left, "legs.right": file.legs.right}
     for key, leg in legs.items():
         turn_foot(spec, leg, key, toml)
+        _add_plate(spec, leg)
     add_camera(spec, file, toml)
     _add_joint_numbers(spec, file, toml)
     straighten_ties(spec, {j for group in file.motors.values() for j in group.joints}, str(toml))
@@ -124,11 +126,15 @@ def _replace_servos(spec: mujoco.MjSpec, file: RobotFile) -> None:
     # One that another one's motor turns has none of its own.
     tied = {tie.name1 for tie in spec.equalities if tie.type == mujoco.mjtEq.mjEQ_JOINT}
     kept: set[str] = set()
+    # A bound that is alike on all and far above their torques is no motor's.
+    one_for_all = len({tuple(actuator.ctrlrange) for actuator in spec.actuators}) == 1
     changed = False
     for actuator in list(spec.actuators):
         name = actuator.target
         if name in peaks and name not in kept and _is_plain_motor(actuator, spec):
             kept.add(name)
+            if one_for_all and actuator.ctrlrange[1] > SAME_FOR_ALL * peaks[name]:
+                actuator.ctrlrange = [-peaks[name], peaks[name]]
         elif name in peaks or not _moves_joint(actuator):
             spec.delete(actuator)
             changed = True
@@ -197,6 +203,24 @@ def _add_forces(spec: mujoco.MjSpec, leg: LegTable) -> None:
     sensor.objtype = mujoco.mjtObj.mjOBJ_BODY
     sensor.objname = leg.sole.link
     sensor.intprm = [_CONTACT_FORCE_AND_PLACE, _NET_FORCE, _ONE]
+
+
+def _add_plate(spec: mujoco.MjSpec, leg: LegTable) -> None:
+    """Add the plate of a sole whose shapes touch the ground in points, where the file says so."""
+    sole, body = leg.sole, spec.body(leg.sole.link)
+    if sole.plate is None or body is None:
+        return
+    x, y, z = sole.position
+    geom = body.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        pos=[x, y, z + 0.5 * sole.plate],
+        size=[0.5 * sole.length, 0.5 * sole.width, 0.5 * sole.plate],
+    )
+    geom.mass, geom.group, geom.condim = 0.0, SEEN_GROUPS, 3
+    # It touches what the foot's own shapes touch.
+    own = [other for other in body.geoms if other.contype or other.conaffinity]
+    if own:
+        geom.contype, geom.conaffinity = own[0].contype, own[0].conaffinity
 
 
 def _show_shapes(spec: mujoco.MjSpec) -> None:

@@ -32,7 +32,6 @@ BASELINE_M, MOST_BASELINE_M = 0.06, 0.2
 """Between the lenses of a stereo camera: by the robot's size, up to a limit."""
 CLEAR_M = 0.02
 """How much wider than the robot the cylinder is that holds it."""
-ANGLE_ROUNDED = 5
 LEVEL_RAD = 1e-3
 CAMERA = """
 [camera]
@@ -193,7 +192,12 @@ class Draft:
         filled = (
             "" if sole.filled > 0.8 else f"  # it fills {100 * sole.filled:.0f} % of its outline"
         )
-        turned = ""
+        plate, turned = "", ""
+        if sole.plate:
+            plate = (
+                f"plate = {sole.plate:.3g}".ljust(32)
+                + "# the model's foot stands on points: a plate over them, which edges hold\n"
+            )
         if sole.orientation is not None:
             numbers = ", ".join(f"{value:.6f}" for value in sole.orientation)
             turned = f"orientation = [{numbers}]  # the link's axes are not ahead, left and up\n"
@@ -201,7 +205,7 @@ class Draft:
             f"\n[legs.{leg.side}]".ljust(33) + f"# {', '.join(leg.roles)}\njoints = [{names}]\n"
             f"[legs.{leg.side}.sole]\nlink = {toml(leg.foot)}\n"
             f"position = [{x:.4f}, {y:.4f}, {z:.5f}]\n{turned}"
-            f"length = {sole.length:.4f}\nwidth = {sole.width:.4f}{filled}\n"
+            f"length = {sole.length:.4f}\nwidth = {sole.width:.4f}{filled}\n{plate}"
         )
 
     def _trunk(self, upper: UpperBody) -> str:
@@ -233,7 +237,7 @@ class Draft:
             quat = np.empty(4)
             mujoco.mju_mat2Quat(quat, axes.T.reshape(-1))
             lines += f"orientation = [{', '.join(f'{value:.6f}' for value in quat)}]\n"
-        lines += "down = 0.0\n"
+        lines += f"down = {head.down:.2f}\n"
         if turns:
             lines += "pan_tilt = true                 # on a small unit of its own that turns it\n"
         return CAMERA.format(name='"depth"', mount=lines, baseline=baseline)

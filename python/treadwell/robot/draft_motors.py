@@ -33,21 +33,11 @@ kv = 0.4
 
 
 def size_of(anatomy: Anatomy, legs: Mapping[str, FoundLeg]) -> float:
-    """Return how high the hips' centres are over the soles at angles zero, m.
-
-    A hip's centre is where the axes above the knee come nearest to each other.
-    """
-    model, data, heights = anatomy.model, anatomy.data, []
+    """Return how high the hips' centres are over the soles at angles zero, m."""
+    heights = []
     for leg in legs.values():
-        above = [model.joint(name).id for name in leg.joints[: leg.roles.index(KNEE)]]
-        anchors, axes = data.xanchor[above], data.xaxis[above]
-        across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-        # Axes that are parallel leave a direction open: there it is at the mean of the anchors.
-        weak = 1e-9 * np.eye(3)
-        right = np.einsum("nij,nj->i", across, anchors) + weak @ anchors.mean(axis=0)
-        hip = np.linalg.solve(across.sum(axis=0) + weak, right)
-        sole = place_of(data, model.body(leg.foot).id, leg.sole)
-        heights.append(float(hip[2] - sole[2]))
+        sole = place_of(anatomy.data, anatomy.model.body(leg.foot).id, leg.sole)
+        heights.append(float(anatomy.hip(leg)[2] - sole[2]))
     return sum(heights) / len(heights)
 
 
@@ -115,10 +105,13 @@ def gait_of(
         mass_kg: of the robot.
         scale: of the robot.
     """
-    ankle = fitting.servo(motors[ANKLE_PITCH], ANKLE_PITCH, 1.0)
-    stiffer = ankle.kp / REFERENCE_ANKLE / (mass_kg / REFERENCE_MASS_KG)
-    found = {"ankle_gain": ANKLE_GAIN / stiffer / scale**0.5}
-    slowest = min(fitting.servo(motors[role], role, 1.0).speed for role in (HIP_PITCH, KNEE))
+    found = {}
+    if ANKLE_PITCH in motors:
+        ankle = fitting.servo(motors[ANKLE_PITCH], ANKLE_PITCH, 1.0)
+        stiffer = ankle.kp / REFERENCE_ANKLE / (mass_kg / REFERENCE_MASS_KG)
+        found["ankle_gain"] = ANKLE_GAIN / stiffer / scale**0.5
+    bending = [role for role in (HIP_PITCH, KNEE) if role in motors]
+    slowest = min(fitting.servo(motors[role], role, 1.0).speed for role in bending)
     slower = slowest * scale**0.5 / REFERENCE_SPEED
     if slower < SLOW:
         found["climb_speed"] = CLIMB_SPEED * slower * scale**0.5

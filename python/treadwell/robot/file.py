@@ -82,6 +82,10 @@ class SoleTable(Table):
     """Extent forward, m."""
     width: Length
     """Extent across, m."""
+    plate: Length | None = None
+    """Thickness of a plate of this size that the link is given, m: for a foot whose shapes touch
+    the ground in points, and would not stand on an edge; default: none.
+    """
 
 
 class SensorsTable(Table):

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell._core import Legs
+from treadwell.robot.file import LegTable
 from treadwell.robot.load import Robot
 from treadwell.robot.step_blocks import TREAD_M, Steps, add_steps
 
@@ -23,6 +24,8 @@ HIGHEST_M, RISE_STEP_M = 0.12, 0.005
 FARTHEST_M, REACH_STEP_M = 0.4, 0.005
 """What is tried, and how finely, of a robot as large as `qrio`."""
 MOST_TURN_RAD, TURN_STEP_RAD = 1.5, 0.05
+END_RAD = 1e-3
+"""How near a joint is to the end of its range that is there."""
 LOWERING_M = 0.002
 """Steps in which the hips of such a robot are lowered until both soles are reached."""
 LOWEST_SHARE = 0.4
@@ -41,6 +44,7 @@ class Rise:
         joint: the joint that bears it.
         knee_torque_nm: what the knee bears.
         touches: a link other than a foot that would touch a step, or None.
+        ended: a joint that comes to its end where the soles do not get there, or None.
     """
 
     height_m: float
@@ -50,6 +54,7 @@ class Rise:
     joint: str
     knee_torque_nm: float
     touches: str | None = None
+    ended: str | None = None
 
     @property
     def possible(self) -> bool:
@@ -83,6 +88,8 @@ class Reach:
         self._data = mujoco.MjData(self._model)
         self._hip_m = float(self.legs.lengths("left")[0][2])
         self._width_m = self.gait["stance_width"]
+        self._missed: set[str] = set()
+        self._ended: str | None = None
 
     def longest_step_m(self) -> float:
         """Return the longest step forward that keeps the hips at the gait's height, m."""
@@ -135,11 +142,12 @@ class Reach:
         lifting = behind + (TRANSFER if carries == 0 else 1.0 - TRANSFER) * (ahead - behind)
         hips = self._lowered(soles, lifting, soles[carries][2])
         if hips is None:
-            return Rise(height_m, False, math.nan, math.nan, "", math.nan)
+            return Rise(height_m, False, math.nan, math.nan, "", math.nan, ended=self._ended)
         self._steps.place(self._data, height_m)
         self._pose(soles, lifting, hips)
         touches = self._steps.touched(self._data)
         reached = self._swings(soles, height_m)
+        ended = None if reached else self._ended
         self._pose(soles, over, hips)
         touches = touches or self._steps.touched(self._data)
         shares = self._shares(carries, over)
@@ -153,6 +161,7 @@ class Reach:
             joint,
             shares[self._robot.upright.knee(leg)][1],
             touches,
+            ended,
         )
 
     def _over(self, soles: list[tuple[float, float, float]], carries: int) -> Floats:
@@ -172,8 +181,20 @@ class Reach:
         (x, y, _), right = soles[0], soles[1]
         lifted = max(height_m, 0.0) + self.gait["climb_clearance"]
         return all(
-            self._pose([(share * x, y, lifted), right], over, hips) for share in (0.0, 0.5, 1.0)
+            self._pose([(share * x, y, lifted), right], over, hips) or self._clears(height_m)
+            for share in (0.0, 0.5, 1.0)
         )
+
+    def _clears(self, height_m: float) -> bool:
+        """Whether the left sole, as it lies where its ankle came to an end, is over both levels."""
+        if "right" in self._missed:
+            return False
+        sole = self._robot.file.legs.left.sole
+        link = self._model.body(sole.link).id
+        up = self._data.xmat[link].reshape(3, 3)[2]
+        middle = float(self._data.xpos[link][2] + up @ np.array(sole.position))
+        lowest = middle - 0.5 * (abs(float(up[0])) * sole.length + abs(float(up[1])) * sole.width)
+        return lowest > max(height_m, 0.0)
 
     def _level(
         self, soles: list[tuple[float, float, float]], yaws: tuple[float, float] = (0.0, 0.0)
@@ -205,23 +226,32 @@ class Reach:
         model, data, robot = self._model, self._data, self._robot
         root = np.array([0.0, 0.0, hips_m - self._hip_m])
         data.qpos[:] = robot.stand_qpos
-        reached = True
         for _ in range(3):
             data.qpos[:3], data.qpos[3:7] = root, (1.0, 0.0, 0.0, 0.0)
             mujoco.mj_kinematics(model, data)
             mujoco.mj_comPos(model, data)
             root[:2] = over - (data.subtree_com[1][:2] - data.qpos[:2])
-            reached = True
+            self._missed = set()
             legs = (robot.file.legs.left, robot.file.legs.right)
             for side, leg, sole, yaw in zip(("left", "right"), legs, soles, yaws, strict=True):
                 x, y, z = (float(value) for value in np.array(sole) - root)
                 angles, found = self.legs.solve(side, (x, y, z), yaw)
-                reached = reached and found
+                if not found:
+                    self._missed.add(side)
+                    self._ended = self._at_end(leg, angles)
                 for joint, angle in zip(leg.joints, angles, strict=True):
                     data.qpos[model.joint(joint).qposadr[0]] = angle
         data.qpos[:3] = root
         mujoco.mj_kinematics(model, data)
-        return reached
+        return not self._missed
+
+    def _at_end(self, leg: LegTable, angles: Floats) -> str | None:
+        """Return a joint of a leg that is at the end of its range, the lowest of them; or None."""
+        for name, angle in zip(reversed(leg.joints), angles[::-1], strict=True):
+            low, high = self._model.joint(name).range
+            if not low + END_RAD < angle < high - END_RAD:
+                return f"{name} ends at {low if angle < 0.5 * (low + high) else high:.2f} rad"
+        return None
 
     def _shares(self, carries: int, over: Floats) -> dict[str, tuple[float, float]]:
         """Return (share of the peak, N·m) of the leg's joints, all the weight on one sole."""

@@ -262,7 +262,7 @@ def _steps(rises: list[Rise]) -> dict[str, Any]:
         if last.touches is not None:
             ends = f"{last.touches} touches a step"
         if not last.reached:
-            ends = "the legs do not reach"
+            ends = "the legs do not reach" + (f": {last.ended}" if last.ended else "")
     return {
         "highest": abs(possible[-1].height_m) if possible else 0.0,
         "ends": ends,

@@ -26,6 +26,15 @@ FULL = 0.8
 """Share of its rectangle that a sole fills, else the rectangle is made narrower."""
 LEAST_M = 0.01
 """A sole that is shorter or narrower is a point or a line."""
+UPRIGHT = 0.99
+"""A cylinder whose axis has so much of up stands on its face."""
+_ROUND = (
+    int(mujoco.mjtGeom.mjGEOM_SPHERE),
+    int(mujoco.mjtGeom.mjGEOM_CAPSULE),
+    int(mujoco.mjtGeom.mjGEOM_CYLINDER),
+    int(mujoco.mjtGeom.mjGEOM_ELLIPSOID),
+)
+"""Shapes that touch a plane in points and lines."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +47,8 @@ class Sole:
         width: extent across, m.
         orientation: (w, x, y, z) from its frame to the link's; None where the link's serves.
         filled: share of the rectangle around it that it fills.
+        plate: how thick a plate is that its shapes stand for, m, where those touch the ground in
+            points and lines alone; 0 where a face of them does.
     """
 
     position: tuple[float, float, float]
@@ -45,6 +56,7 @@ class Sole:
     width: float
     orientation: tuple[float, float, float, float] | None = None
     filled: float = 1.0
+    plate: float = 0.0
 
     @property
     def in_link(self) -> Floats:
@@ -73,7 +85,8 @@ def find_sole(model: mujoco.MjModel, data: mujoco.MjData, link: int, forward: Fl
     """
     fixed = model.body_weldid == model.body_weldid[link]
     geoms = np.flatnonzero(fixed[model.geom_bodyid])
-    cloud = cloud_of(model, data, _standing_geoms(model, geoms))
+    standing = _standing_geoms(model, geoms)
+    cloud = cloud_of(model, data, standing)
     if not len(cloud.centres):
         return Sole((0.0, 0.0, 0.0), 0.0, 0.0)
     rotation = data.xmat[link].reshape(3, 3)
@@ -89,9 +102,28 @@ def find_sole(model: mujoco.MjModel, data: mujoco.MjData, link: int, forward: Fl
         mujoco.mju_mat2Quat(quat, (rotation.T @ axes).reshape(-1))
         w, x, y, z = (float(value) for value in quat)
         orientation = (w, x, y, z)
-    width = float(size[1]) * (1.0 if fill >= FULL else fill)
+    plate = _plate(model, data, standing, axes[:, 2])
+    width = float(size[1]) * (1.0 if fill >= FULL or plate else fill)
     position = (float(place[0]), float(place[1]), float(place[2]))
-    return Sole(position, float(size[0]), width, orientation, fill)
+    return Sole(position, float(size[0]), width, orientation, fill, plate)
+
+
+def _plate(
+    model: mujoco.MjModel, data: mujoco.MjData, geoms: NDArray[np.intp], up: Floats
+) -> float:
+    """Return how high the shapes are on which a foot stands, m; 0 where one has a face below."""
+    clouds = [cloud_of(model, data, [geom]) for geom in geoms]
+    lowest = [float((cloud.lowest(up) @ up).min(initial=np.inf)) for cloud in clouds]
+    ground, highest = min(lowest), 0.0
+    for geom, cloud, low in zip(geoms, clouds, lowest, strict=True):
+        if low > ground + SOLE_DEPTH_M:
+            continue
+        upright = abs(float(data.geom_xmat[geom].reshape(3, 3)[:, 2] @ up)) > UPRIGHT
+        kind = int(model.geom_type[geom])
+        if kind not in _ROUND or (kind == mujoco.mjtGeom.mjGEOM_CYLINDER and upright):
+            return 0.0
+        highest = max(highest, float((cloud.centres @ up + cloud.radii).max()) - ground)
+    return highest
 
 
 def _standing_geoms(model: mujoco.MjModel, geoms: NDArray[np.intp]) -> NDArray[np.intp]:

@@ -13,9 +13,17 @@ from treadwell.robot.joint_roles import ANKLE_PITCH, HIP_PITCH, HIP_YAW, KNEE
 Floats = NDArray[np.float64]
 
 KNEE_RADS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
-"""Bends of the knees in the stance: the first that the motors bear easily."""
+"""Bends of the knees in the stance: the first that the motors of hip and knee bear easily."""
 EASY_SHARE = 0.5
 """Of the peak torque, on one leg."""
+LIFTED = 0.1
+"""How high a sole can be lifted at least, level and straight up, over the length of the leg."""
+WIDTH_SHARE = 0.34
+"""Distance of the feet of `qrio` over the length of its legs."""
+WIDE = 1.2
+"""Feet so many times as far apart as that, and as the hips, are brought together."""
+ALL_SIX = 6
+"""Joints of a leg that puts its sole anywhere and level: with fewer, it is where it is."""
 ROUNDED = 5
 LEAST_RAD = 1e-5
 ROUNDS, STEPS = 6, 30
@@ -36,7 +44,7 @@ class Stance:
 
     def __init__(self, anatomy: Anatomy, legs: Mapping[str, FoundLeg]) -> None:
         """Begin with all joints at zero, or as near to it as their ranges go."""
-        self._model, self._legs = anatomy.model, legs
+        self._anatomy, self._model, self._legs = anatomy, anatomy.model, legs
         self._zero = nearest_to_zero(anatomy.model)
         if anatomy.model.jnt_type[0] == mujoco.mjtJoint.mjJNT_FREE:
             self._zero[:7] = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
@@ -56,7 +64,7 @@ class Stance:
                 load for leg in self._legs.values() for load in self._shares(data, leg, peaks)
             )
             chosen = data.qpos.copy()
-            if worst <= EASY_SHARE:
+            if worst <= EASY_SHARE and self._has_room(data):
                 break
         assert chosen is not None
         model, found = self._model, {}
@@ -71,13 +79,30 @@ class Stance:
                 found[model.joint(joint).name] = angle
         return found
 
+    def _has_room(self, data: mujoco.MjData) -> bool:
+        """Whether both soles are where they should be, and each can be lifted from there, level."""
+        if max(self.missed.values()) > REACHED:
+            return False
+        model, lifted = self._model, mujoco.MjData(self._model)
+        for leg in self._legs.values():
+            lifted.qpos[:] = data.qpos
+            _place(model, lifted)
+            sole, hip = place_of(lifted, self._link(leg), leg.sole), self._anatomy.hip(leg)
+            length = float(hip[2] - self._anatomy.sole_place(self._link(leg), leg.sole)[2])
+            above = sole + np.array((0.0, 0.0, LIFTED * length))
+            if self._reach(lifted, leg, above) > REACHED:
+                return False
+        return True
+
     def _shares(
         self, data: mujoco.MjData, leg: FoundLeg, peaks: Mapping[str, float]
     ) -> list[float]:
         copy = mujoco.MjData(self._model)
         copy.qpos[:] = data.qpos
         sole = (leg.foot, leg.sole.in_link)
-        return [load.share for load in load_on(self._model, copy, leg.joints, sole, peaks)]
+        # What an ankle bears, no bend of the knee changes.
+        bend = [joint for role in (HIP_PITCH, KNEE) if (joint := leg.joint(role)) is not None]
+        return [load.share for load in load_on(self._model, copy, bend, sole, peaks)]
 
     def _bent(self, knee: float, others: Mapping[str, float]) -> mujoco.MjData:
         """Return the posture with knees bent so far."""
@@ -94,10 +119,18 @@ class Stance:
                 float(place_of(data, self._link(leg), leg.sole)[2]) for leg in self._legs.values()
             ]
             for side, leg in self._legs.items():
-                aside = float(place_of(data, self._link(leg), leg.sole)[1])
-                target = np.array([ahead, aside, sum(heights) / len(heights)])
+                target = np.array([ahead, self._aside(data, leg), sum(heights) / len(heights)])
                 self.missed[side] = self._reach(data, leg, target)
         return data
+
+    def _aside(self, data: mujoco.MjData, leg: FoundLeg) -> float:
+        """Return where to the side a sole is to be, m: where it is, but not too far."""
+        place = float(place_of(data, self._link(leg), leg.sole)[1])
+        if len(leg.joints) < ALL_SIX:
+            return place
+        hip, sole = self._anatomy.hip(leg), self._anatomy.sole_place(self._link(leg), leg.sole)
+        widest = max(abs(float(hip[1])), 0.5 * WIDTH_SHARE * float(hip[2] - sole[2]))
+        return place if abs(place) <= WIDE * widest else float(np.copysign(widest, place))
 
     def _link(self, leg: FoundLeg) -> int:
         return int(self._model.body(leg.foot).id)

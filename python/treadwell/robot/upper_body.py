@@ -21,6 +21,8 @@ TURNS = 0.8
 """A joint pans or tilts where so much of its axis is upright, or across."""
 ARM_ANGLES = 13
 """Angles of a joint of an arm that are tried, over its range."""
+NODS_RAD = 1.04
+"""How far down a camera can be turned at least: `nao`'s, which sees the ground before its feet."""
 HEAD_NAMES = ("head", "neck", "skull", "face")
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -36,6 +38,7 @@ class FoundHead:
         pan: joint that turns it left and right, None where there is none.
         tilt: joint that nods, None where there is none.
         how: how it was found, and how sure that is.
+        down: how far a camera that is added looks down, rad: what the head cannot nod.
     """
 
     link: int
@@ -44,6 +47,7 @@ class FoundHead:
     pan: str | None
     tilt: str | None
     how: str
+    down: float = 0.0
 
     @property
     def turns(self) -> bool:
@@ -90,6 +94,7 @@ class UpperBody:
 
     def _head_at(self, link: int, camera: str | None, lens: Floats, how: str) -> FoundHead:
         pan = tilt = None
+        down = 0.0
         across = np.cross(UP, FORWARD)
         above = self._anatomy.chain(self.torso)
         for joint in self._anatomy.chain(link):
@@ -100,7 +105,11 @@ class UpperBody:
                 pan = self._model.joint(joint).name
             elif abs(float(axis @ across)) > TURNS:
                 tilt = self._model.joint(joint).name
-        return FoundHead(link, camera, lens, pan, tilt, how)
+                bounds = self._model.jnt_range[joint] * np.sign(float(axis @ across))
+                limited = bool(self._model.jnt_limited[joint])
+                down = max(0.0, NODS_RAD - float(bounds.max())) if limited else 0.0
+        # One that does not both pan and tilt gets a unit that does.
+        return FoundHead(link, camera, lens, pan, tilt, how, down if pan and tilt else 0.0)
 
     def _looks_ahead(self, camera: int) -> bool:
         """Whether a camera is fixed to the robot, within its height, and looks ahead."""
