@@ -53,6 +53,7 @@ impl Robot {
             let GaitReference { dcm, .. } = self.gait.reference(OMEGA, task);
             let falling = Falling {
                 dcm: dcm + Vector2::new(x_m, y_m),
+                com: dcm,
                 reference: dcm,
                 omega: OMEGA,
                 soles: &self.soles,

@@ -12,8 +12,9 @@ use crate::config::GaitConfig;
 use crate::felt::Felt;
 use crate::footsteps::FootstepPlanner;
 use crate::gait::Gait;
-use crate::phase::{GaitReference, Swing};
+use crate::phase::{FootPose, GaitReference, Swing};
 use crate::support::Soles;
+use crate::swing;
 use crate::task::Task;
 
 /// What a tick knows of the balance.
@@ -21,7 +22,9 @@ use crate::task::Task;
 pub(crate) struct Falling<'a> {
     /// The measured divergent component of motion, m.
     pub(crate) dcm: Vector2<f64>,
-    /// Its reference, m.
+    /// The measured centre of mass over the ground, m.
+    pub(crate) com: Vector2<f64>,
+    /// Reference of the divergent component of motion, m.
     pub(crate) reference: Vector2<f64>,
     /// Natural frequency of the pendulum, 1/s.
     pub(crate) omega: f64,
@@ -49,6 +52,7 @@ impl<'a> Falling<'a> {
     ) -> Self {
         Self {
             dcm: balance.dcm(),
+            com: balance.com,
             reference: reference.dcm,
             omega: balance.omega,
             soles,
@@ -172,13 +176,23 @@ impl LandingSearch {
         }
     }
 
-    /// As far from the standing foot as this foot goes.
-    pub(crate) fn far_out(&self, gait: &Gait, swing: &Swing) -> PlanarPose {
+    /// Where a foot would land that is so far out from where it was to land, and as much higher as a stretched leg has it then, after
+    /// this share of its swing.
+    pub(crate) fn far_out(&self, gait: &Gait, swing: &Swing, out_m: f64, share: f64) -> FootPose {
+        let tuning = &self.config.tuning;
+        let leg_m = self.planner.leg_m;
         let stance = gait.feet[swing.side.other().index()].planar;
         let mut out = stance.relative(&swing.planned.planar);
-        out.y_m = swing.side.sign() * (self.config.stance_width + self.planner.leg_m);
-        self.planner
-            .within_catch(&stance, &stance.compose(&out), swing.side)
+        out.y_m = swing.side.sign() * (self.config.stance_width + out_m);
+        let out = stance.compose(&out);
+        let from = &swing.from.planar;
+        let travel = swing::travel(share.max(tuning.catching.out_share), &tuning.swing);
+        let level_m = (leg_m * leg_m - out_m * out_m).max(0.0).sqrt();
+        FootPose {
+            planar: swing::part_way(from, &out, 1.0 / travel),
+            z_m: swing.planned.z_m + tuning.catching.out_lift * (leg_m - level_m),
+            ..swing.planned
+        }
     }
 
     /// A speed of so many heights of the hips for each time constant of the pendulum.
