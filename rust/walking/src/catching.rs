@@ -249,7 +249,7 @@ impl Catching {
         };
         if weighs > 0.0 && self.held_s <= self.config.capture_patience {
             self.weighs = self.weighs.max(weighs);
-            return self.counterweigh(gait, falling, swing, elapsed_s / duration_s);
+            return self.counterweigh(gait, falling, swing, [elapsed_s, duration_s]);
         }
         (self.weighs, self.out_m) = (0.0, 0.0);
         if let GaitPhase::Single { swing, .. } = &mut gait.phase
@@ -270,19 +270,22 @@ impl Catching {
         &mut self,
         gait: &mut Gait,
         falling: &Falling<'_>,
-        mut swing: Swing,
-        share: f64,
+        swing: Swing,
+        [elapsed_s, duration_s]: [f64; 2],
     ) -> f64 {
         let tuning = &self.config.tuning.catching;
         let goal_m = self.weighs * tuning.weigh * self.search.planner.leg_m;
         let most_m = self.search.speed_mps(falling, tuning.out_speed) * falling.passed_s;
         self.out_m += (goal_m - self.out_m).clamp(0.0, most_m);
-        let out = self.search.far_out(gait, &swing, self.out_m, share);
-        self.move_landing(&mut swing, &out, falling);
-        if let GaitPhase::Single { swing: moved, .. } = &mut gait.phase {
-            *moved = swing;
+        let here = swing.foot(elapsed_s, &self.config);
+        let out = self.search.far_out(gait, &swing, &here, self.out_m);
+        if let GaitPhase::Single { swing, .. } = &mut gait.phase {
+            (swing.from, swing.to) = (here, here);
+            self.move_landing(swing, &out, falling);
+            swing.to.z_m = out.z_m;
+            swing.from = swing.to;
         }
-        if share < tuning.out_share {
+        if elapsed_s < tuning.out_share * duration_s {
             return tuning.out_rate;
         }
         self.held_s += falling.passed_s;

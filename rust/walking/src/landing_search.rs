@@ -14,7 +14,6 @@ use crate::footsteps::FootstepPlanner;
 use crate::gait::Gait;
 use crate::phase::{FootPose, GaitReference, Swing};
 use crate::support::Soles;
-use crate::swing;
 use crate::task::Task;
 
 /// What a tick knows of the balance.
@@ -176,21 +175,18 @@ impl LandingSearch {
         }
     }
 
-    /// Where a foot would land that is so far out from where it was to land, and as much higher as a stretched leg has it then, after
-    /// this share of its swing.
-    pub(crate) fn far_out(&self, gait: &Gait, swing: &Swing, out_m: f64, share: f64) -> FootPose {
-        let tuning = &self.config.tuning;
+    /// Where a foot in the air that is `here` is as far out as this from where it stands beside the other one, and as much higher as a
+    /// stretched leg has it then.
+    pub(crate) fn far_out(&self, gait: &Gait, swing: &Swing, here: &FootPose, out_m: f64) -> FootPose {
         let leg_m = self.planner.leg_m;
         let stance = gait.feet[swing.side.other().index()].planar;
-        let mut out = stance.relative(&swing.planned.planar);
-        out.y_m = swing.side.sign() * (self.config.stance_width + out_m);
-        let out = stance.compose(&out);
-        let from = &swing.from.planar;
-        let travel = swing::travel(share.max(tuning.catching.out_share), &tuning.swing);
+        let mut out = stance.relative(&here.planar);
+        let across_m = (out.y_m * swing.side.sign()).max(self.config.stance_width + out_m);
+        out.y_m = swing.side.sign() * across_m;
         let level_m = (leg_m * leg_m - out_m * out_m).max(0.0).sqrt();
         FootPose {
-            planar: swing::part_way(from, &out, 1.0 / travel),
-            z_m: swing.planned.z_m + tuning.catching.out_lift * (leg_m - level_m),
+            planar: stance.compose(&out),
+            z_m: swing.planned.z_m + self.config.tuning.catching.out_lift * (leg_m - level_m),
             ..swing.planned
         }
     }
