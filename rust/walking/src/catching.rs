@@ -81,7 +81,11 @@ impl Catching {
     fn roll(&mut self, falling: &Falling<'_>) {
         let tuning = &self.config.tuning.catching;
         let goal_rad = -self.outer.sign() * tuning.roll * self.weighs;
-        let speed = if self.weighs > 0.0 { tuning.roll_speed } else { tuning.roll_back };
+        let speed = if self.weighs > 0.0 {
+            tuning.roll_speed
+        } else {
+            tuning.roll_back
+        };
         let most_rad = speed * falling.omega * falling.passed_s;
         self.roll_rad += (goal_rad - self.roll_rad).clamp(-most_rad, most_rad);
     }
@@ -111,7 +115,9 @@ impl Catching {
         };
         self.state = match self.state {
             _ if !gait.may_catch() => Watch::Settling(0.0),
-            Watch::Ready(_) if self.outwards(gait, &falling.dcm).1 > tuning.tips => Watch::Pushed(0.0),
+            Watch::Ready(_) if self.outwards(gait, &falling.dcm).1 > tuning.tips => {
+                Watch::Pushed(0.0)
+            }
             Watch::Ready(off_s) if error_m > tuning.begins * leg_m => {
                 let off_s = off_s + falling.passed_s;
                 if off_s > tuning.sure_time {
@@ -140,7 +146,10 @@ impl Catching {
         let share = |side: Side| {
             let foot = gait.feet[side.index()].planar.inverse();
             let (_, left_m) = foot.apply(point.x, point.y);
-            (side, left_m * side.sign() / self.search.planner.half_sole_m().y)
+            (
+                side,
+                left_m * side.sign() / self.search.planner.half_sole_m().y,
+            )
         };
         match &gait.phase {
             GaitPhase::Standing => (Side::Left, 0.0),
@@ -195,11 +204,7 @@ impl Catching {
         } else {
             left.2.cost_m <= right.2.cost_m
         };
-        let (trial, mut swing, catch) = if lifts_left {
-            left
-        } else {
-            right
-        };
+        let (trial, mut swing, catch) = if lifts_left { left } else { right };
         *gait = trial;
         swing.to.planar = catch.to;
         let duration_s = swing.single_support_s(&self.config);

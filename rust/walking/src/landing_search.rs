@@ -177,7 +177,13 @@ impl LandingSearch {
 
     /// Where a foot in the air that is `here` is as far out as this from where it stands beside the other one, and as much higher as a
     /// stretched leg has it then.
-    pub(crate) fn far_out(&self, gait: &Gait, swing: &Swing, here: &FootPose, out_m: f64) -> FootPose {
+    pub(crate) fn far_out(
+        &self,
+        gait: &Gait,
+        swing: &Swing,
+        here: &FootPose,
+        out_m: f64,
+    ) -> FootPose {
         let leg_m = self.planner.leg_m;
         let stance = gait.feet[swing.side.other().index()].planar;
         let mut out = stance.relative(&here.planar);
@@ -186,7 +192,7 @@ impl LandingSearch {
         let level_m = (leg_m * leg_m - out_m * out_m).max(0.0).sqrt();
         FootPose {
             planar: stance.compose(&out),
-            z_m: swing.planned.z_m + self.config.tuning.catching.out_lift * (leg_m - level_m),
+            z_m: swing.planned.z_m + leg_m - level_m,
             ..swing.planned
         }
     }

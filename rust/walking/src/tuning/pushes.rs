@@ -41,15 +41,13 @@ settings! {
         out: f64 = 0.02, "1", NOT_NEGATIVE;
         /// How far towards the outer edge of the sole that stands, from its middle, the divergent component of motion is at once taken
         /// for a push, as a share of half a sole's width.
-        tips: f64 = 0.4, "1", NOT_NEGATIVE;
+        tips: f64 = 0.25, "1", NOT_NEGATIVE;
         /// How far out it is when foot and torso do all they can as a counterweight, in the same way.
-        tipped: f64 = 0.8, "1", POSITIVE;
+        tipped: f64 = 0.5, "1", POSITIVE;
         /// How far out a foot that is a counterweight goes, in heights of the hips.
-        weigh: f64 = 0.5, "1", SHARE;
+        weigh: f64 = 0.7, "1", SHARE;
         /// How fast it goes there, in heights of the hips for each time constant of the pendulum.
-        out_speed: f64 = 1.0, "1", POSITIVE;
-        /// How much of what a stretched leg has it higher then it is lifted.
-        out_lift: f64 = 0.7, "1", NOT_NEGATIVE;
+        out_speed: f64 = 1.5, "1", POSITIVE;
         /// How fast the clock of the step runs until then.
         out_rate: f64 = 2.0, "1", POSITIVE;
         /// How far the torso rolls to the side to which the robot falls over the outer edge.
