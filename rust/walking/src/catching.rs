@@ -3,7 +3,6 @@
 //! Nothing here acts on a robot that is not pushed: the divergent component of motion has to be farther off its reference, and for
 //! longer, than a walk or a landing ever puts it. Where and when a foot lands, [`crate::landing_search`] says.
 
-use nalgebra::Vector2;
 use robot::Side;
 
 use crate::config::GaitConfig;
@@ -13,6 +12,8 @@ use crate::landing_search::{Falling, LandingSearch};
 use crate::phase::{FootPose, GaitPhase, Manner, Swing};
 use crate::task::Task;
 
+mod counterweight;
+
 /// Steps that catch a push.
 #[derive(Debug, Clone)]
 pub(crate) struct Catching {
@@ -20,7 +21,7 @@ pub(crate) struct Catching {
     search: LandingSearch,
     state: Watch,
     held_s: f64,
-    /// How far the torso is told to roll to its left, rad: what it gains of the robot's turning, the fall loses.
+    /// How far the torso is told to roll to its right, rad: what it gains of the robot's turning, the fall loses.
     roll_rad: f64,
     /// What share of all that a counterweight can do it does: of the foot in the air and the torso.
     weighs: f64,
@@ -56,11 +57,6 @@ impl Catching {
         }
     }
 
-    /// How far the torso is to roll to its right, rad.
-    pub(crate) const fn roll_rad(&self) -> f64 {
-        self.roll_rad
-    }
-
     /// Whether a push is being caught.
     pub(crate) const fn is_active(&self) -> bool {
         matches!(self.state, Watch::Pushed(_))
@@ -75,19 +71,6 @@ impl Catching {
         let rate = self.is_active().then(|| self.caught(gait, falling));
         self.roll(falling);
         rate
-    }
-
-    /// Rolls the torso to the side to which the robot falls over the outer edge of its sole, and back after that.
-    fn roll(&mut self, falling: &Falling<'_>) {
-        let tuning = &self.config.tuning.catching;
-        let goal_rad = -self.outer.sign() * tuning.roll * self.weighs;
-        let speed = if self.weighs > 0.0 {
-            tuning.roll_speed
-        } else {
-            tuning.roll_back
-        };
-        let most_rad = speed * falling.omega * falling.passed_s;
-        self.roll_rad += (goal_rad - self.roll_rad).clamp(-most_rad, most_rad);
     }
 
     fn caught(&mut self, gait: &mut Gait, falling: &Falling<'_>) -> f64 {
@@ -138,35 +121,6 @@ impl Catching {
         if !self.is_active() {
             self.held_s = 0.0;
         }
-    }
-
-    /// The foot over whose outer edge the robot would fall, and how far this point has got there from the middle of that sole, as a share
-    /// of half its width.
-    fn outwards(&self, gait: &Gait, point: &Vector2<f64>) -> (Side, f64) {
-        let share = |side: Side| {
-            let foot = gait.feet[side.index()].planar.inverse();
-            let (_, left_m) = foot.apply(point.x, point.y);
-            (
-                side,
-                left_m * side.sign() / self.search.planner.half_sole_m().y,
-            )
-        };
-        match &gait.phase {
-            GaitPhase::Standing => (Side::Left, 0.0),
-            GaitPhase::Single { swing, .. } => share(swing.side.other()),
-            GaitPhase::Double { .. } => {
-                let [left, right] = Side::BOTH.map(share);
-                if left.1 > right.1 { left } else { right }
-            }
-        }
-    }
-
-    /// What share of all that a counterweight can do is due.
-    fn weighing(&self, gait: &Gait, falling: &Falling<'_>) -> (Side, f64) {
-        let tuning = &self.config.tuning.catching;
-        let (outer, share) = self.outwards(gait, &falling.dcm);
-        let weighs = (share - tuning.tips) / (tuning.tipped - tuning.tips);
-        (outer, weighs.clamp(0.0, 1.0))
     }
 
     /// While both feet stand: waits as long as they hold the robot, and lifts one of them when they do not.
@@ -267,34 +221,6 @@ impl Catching {
             self.move_landing(swing, &to, falling);
         }
         left_s / catch.left_s
-    }
-
-    /// The robot falls over the outer edge of the sole that stands, where no step helps: the foot in the air goes out to the other side
-    /// and waits there. What it takes of the robot's momentum, the body is given back.
-    fn counterweigh(
-        &mut self,
-        gait: &mut Gait,
-        falling: &Falling<'_>,
-        swing: Swing,
-        [elapsed_s, duration_s]: [f64; 2],
-    ) -> f64 {
-        let tuning = &self.config.tuning.catching;
-        let goal_m = self.weighs * tuning.weigh * self.search.planner.leg_m;
-        let most_m = self.search.speed_mps(falling, tuning.out_speed) * falling.passed_s;
-        self.out_m += (goal_m - self.out_m).clamp(0.0, most_m);
-        let here = swing.foot(elapsed_s, &self.config);
-        let out = self.search.far_out(gait, &swing, &here, self.out_m);
-        if let GaitPhase::Single { swing, .. } = &mut gait.phase {
-            (swing.from, swing.to) = (here, here);
-            self.move_landing(swing, &out, falling);
-            swing.to.z_m = out.z_m;
-            swing.from = swing.to;
-        }
-        if elapsed_s < tuning.out_share * duration_s {
-            return tuning.out_rate;
-        }
-        self.held_s += falling.passed_s;
-        0.0
     }
 
     fn move_landing(&self, swing: &mut Swing, goal: &FootPose, falling: &Falling<'_>) {
