@@ -3,7 +3,6 @@
 //! Nothing here acts on a robot that is not pushed: the divergent component of motion has to be farther off its reference, and for
 //! longer, than a walk or a landing ever puts it. Where and when a foot lands, [`crate::landing_search`] says.
 
-use geometry::PlanarPose;
 use robot::Side;
 
 use crate::config::GaitConfig;
@@ -13,6 +12,8 @@ use crate::landing_search::{Falling, LandingSearch};
 use crate::phase::{FootPose, GaitPhase, Manner, Swing};
 use crate::task::Task;
 
+mod counterweight;
+
 /// Steps that catch a push.
 #[derive(Debug, Clone)]
 pub(crate) struct Catching {
@@ -20,6 +21,14 @@ pub(crate) struct Catching {
     search: LandingSearch,
     state: Watch,
     held_s: f64,
+    /// How far the torso is told to roll to its right, rad: what it gains of the robot's turning, the fall loses.
+    roll_rad: f64,
+    /// What share of all that a counterweight can do it does: of the foot in the air and the torso.
+    weighs: f64,
+    /// The foot over whose outer edge the robot falls.
+    outer: Side,
+    /// How far out the foot has gone as a counterweight, m.
+    out_m: f64,
 }
 
 /// What is known of pushes, and for how long, s, the robot has been near its reference.
@@ -41,6 +50,10 @@ impl Catching {
             search: LandingSearch::new(config, planner),
             state: Watch::Settling(0.0),
             held_s: 0.0,
+            roll_rad: 0.0,
+            weighs: 0.0,
+            outer: Side::Left,
+            out_m: 0.0,
         }
     }
 
@@ -53,15 +66,21 @@ impl Catching {
     pub(crate) fn step(&mut self, gait: &mut Gait, falling: &Falling<'_>) -> Option<f64> {
         self.look(gait, falling);
         if !self.is_active() {
-            return None;
+            (self.weighs, self.out_m) = (0.0, 0.0);
         }
+        let rate = self.is_active().then(|| self.caught(gait, falling));
+        self.roll(falling);
+        rate
+    }
+
+    fn caught(&mut self, gait: &mut Gait, falling: &Falling<'_>) -> f64 {
         match gait.phase {
-            GaitPhase::Standing | GaitPhase::Double { .. } => Some(self.on_both(gait, falling)),
+            GaitPhase::Standing | GaitPhase::Double { .. } => self.on_both(gait, falling),
             GaitPhase::Single {
                 elapsed_s,
                 duration_s,
                 swing,
-            } => Some(self.on_one(gait, falling, swing, elapsed_s, duration_s)),
+            } => self.on_one(gait, falling, swing, elapsed_s, duration_s),
         }
     }
 
@@ -79,6 +98,9 @@ impl Catching {
         };
         self.state = match self.state {
             _ if !gait.may_catch() => Watch::Settling(0.0),
+            Watch::Ready(_) if self.outwards(gait, &falling.dcm).1 > tuning.tips => {
+                Watch::Pushed(0.0)
+            }
             Watch::Ready(off_s) if error_m > tuning.begins * leg_m => {
                 let off_s = off_s + falling.passed_s;
                 if off_s > tuning.sure_time {
@@ -103,6 +125,8 @@ impl Catching {
 
     /// While both feet stand: waits as long as they hold the robot, and lifts one of them when they do not.
     fn on_both(&mut self, gait: &mut Gait, falling: &Falling<'_>) -> f64 {
+        self.out_m = 0.0;
+        (self.outer, self.weighs) = self.weighing(gait, falling);
         let tuning = &self.config.tuning.catching;
         let carry = Side::BOTH.map(|side| gait.stance_point(side));
         let lands = match gait.phase {
@@ -113,7 +137,8 @@ impl Catching {
             return 1.0;
         }
         let held = falling.soles.on_both(&gait.feet, &carry, &falling.dcm).zmp;
-        if (falling.dcm - held).norm() <= tuning.outside * self.search.planner.half_sole_m().x {
+        let outside_m = tuning.outside * self.search.planner.half_sole_m().x;
+        if self.weighs == 0.0 && (falling.dcm - held).norm() <= outside_m {
             if self.held_s > self.config.capture_patience || gait.is_standing() {
                 return 1.0;
             }
@@ -128,11 +153,12 @@ impl Catching {
             (trial, swing, catch)
         });
         let [left, right] = steps;
-        let (trial, mut swing, catch) = if left.2.cost_m <= right.2.cost_m {
-            left
+        let lifts_left = if self.weighs > 0.0 {
+            self.outer == Side::Right
         } else {
-            right
+            left.2.cost_m <= right.2.cost_m
         };
+        let (trial, mut swing, catch) = if lifts_left { left } else { right };
         *gait = trial;
         swing.to.planar = catch.to;
         let duration_s = swing.single_support_s(&self.config);
@@ -169,45 +195,41 @@ impl Catching {
             return left_s / falling.passed_s;
         }
         let catch = self.search.best(gait, falling, &swing, left_s);
-        if catch.outwards_m > 0.0 && self.held_s <= self.config.capture_patience {
-            return self.counterweigh(gait, falling, swing, elapsed_s / duration_s);
+        let (outer, due) = self.weighing(gait, falling);
+        self.outer = outer;
+        let goes_on = self.weighs > 0.0
+            && self.outwards(gait, &falling.com).1 < self.outwards(gait, &falling.dcm).1;
+        let weighs = if catch.outwards_m > 0.0 {
+            1.0
+        } else if goes_on {
+            due.max(self.weighs)
+        } else {
+            due
+        };
+        if weighs > 0.0 && self.held_s <= self.config.capture_patience {
+            self.weighs = self.weighs.max(weighs);
+            return self.counterweigh(gait, falling, swing, [elapsed_s, duration_s]);
         }
+        (self.weighs, self.out_m) = (0.0, 0.0);
         if let GaitPhase::Single { swing, .. } = &mut gait.phase
             && elapsed_s < tuning.committed * duration_s
         {
-            self.move_landing(swing, &catch.to, falling);
+            let to = FootPose {
+                planar: catch.to,
+                ..swing.planned
+            };
+            self.move_landing(swing, &to, falling);
         }
         left_s / catch.left_s
     }
 
-    /// The robot falls over the outer edge of the sole that stands, where no step helps: the foot in the air goes out to the other side
-    /// and waits there. What it takes of the robot's momentum, the body is given back.
-    fn counterweigh(
-        &mut self,
-        gait: &mut Gait,
-        falling: &Falling<'_>,
-        mut swing: Swing,
-        share: f64,
-    ) -> f64 {
-        let tuning = &self.config.tuning.catching;
-        let out = self.search.far_out(gait, &swing);
-        self.move_landing(&mut swing, &out, falling);
-        if let GaitPhase::Single { swing: moved, .. } = &mut gait.phase {
-            *moved = swing;
-        }
-        if share < tuning.out_share {
-            return 1.0;
-        }
-        self.held_s += falling.passed_s;
-        0.0
-    }
-
-    fn move_landing(&self, swing: &mut Swing, goal: &PlanarPose, falling: &Falling<'_>) {
+    fn move_landing(&self, swing: &mut Swing, goal: &FootPose, falling: &Falling<'_>) {
         let most = self
             .search
             .speed_mps(falling, self.config.tuning.catching.speed)
             * falling.passed_s;
-        let to = &mut swing.to.planar;
+        swing.to.z_m += (goal.z_m - swing.to.z_m).clamp(-most, most);
+        let (to, goal) = (&mut swing.to.planar, &goal.planar);
         to.x_m += (goal.x_m - to.x_m).clamp(-most, most);
         to.y_m += (goal.y_m - to.y_m).clamp(-most, most);
     }

@@ -53,6 +53,7 @@ impl Robot {
             let GaitReference { dcm, .. } = self.gait.reference(OMEGA, task);
             let falling = Falling {
                 dcm: dcm + Vector2::new(x_m, y_m),
+                com: dcm,
                 reference: dcm,
                 omega: OMEGA,
                 soles: &self.soles,
@@ -139,8 +140,12 @@ fn a_push_to_the_foot_in_the_air_widens_its_step_and_hurries_it() {
 fn over_the_outer_edge_the_foot_in_the_air_goes_out_and_waits_but_not_for_ever() {
     let mut robot = Robot::stepping(Manner::Walk);
     let _ = robot.feels(50, 0.0, 0.0);
-    assert_eq!(robot.feels(10, 0.0, -0.12), Some(1.0));
-    assert!(robot.swing().unwrap().to.planar.y_m > 0.06);
+    let hurries = config().tuning.catching.out_rate;
+    assert_eq!(robot.feels(8, 0.0, -0.12), Some(hurries));
+    let weigh_m = config().tuning.catching.weigh * config().hip_height;
+    let swing = robot.swing().unwrap();
+    assert!(swing.to.planar.y_m > 0.0425 + 0.4 * weigh_m);
+    assert!(swing.to.z_m > 0.02, "{}", swing.to.z_m);
     if let GaitPhase::Single {
         elapsed_s,
         duration_s,
@@ -152,6 +157,26 @@ fn over_the_outer_edge_the_foot_in_the_air_goes_out_and_waits_but_not_for_ever()
     assert_eq!(robot.feels(5, 0.0, -0.12), Some(0.0));
     let patience = (config().capture_patience / TICK_S) as usize;
     assert!(robot.feels(patience + 2, 0.0, -0.12).unwrap() > 0.0);
+}
+
+#[test]
+fn over_the_outer_edge_the_torso_rolls_to_where_the_robot_falls_and_comes_back() {
+    let most_rad = config().tuning.catching.roll;
+    for (mut robot, y_m, to_right) in [
+        (Robot::stepping(Manner::Walk), -0.12, 1.0),
+        (Robot::stepping(Manner::Walk), 0.05, 0.0),
+    ] {
+        let _ = robot.feels(50, 0.0, 0.0);
+        assert_eq!(robot.catching.roll_rad(), 0.0);
+        let _ = robot.feels(20, 0.0, y_m);
+        let rolled_rad = robot.catching.roll_rad();
+        assert!(
+            (rolled_rad - to_right * most_rad).abs() < 1e-9,
+            "{rolled_rad}"
+        );
+        let _ = robot.feels(100, 0.0, 0.0);
+        assert_eq!(robot.catching.roll_rad(), 0.0);
+    }
 }
 
 #[test]
@@ -171,6 +196,7 @@ fn a_foot_that_touches_the_ground_lands_where_it_is() {
     let reference = robot.gait.reference(OMEGA, task).dcm;
     let falling = Falling {
         dcm: reference + Vector2::new(0.0, 0.05),
+        com: reference,
         reference,
         omega: OMEGA,
         soles: &robot.soles,

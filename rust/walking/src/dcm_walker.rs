@@ -165,6 +165,7 @@ impl DcmWalker {
                 com: self.com,
             },
             balance: &self.balance,
+            roll_rad: self.catching.roll_rad(),
             ankles: &self.ankles,
             passed_s,
         };

@@ -12,7 +12,7 @@ use crate::config::GaitConfig;
 use crate::felt::Felt;
 use crate::footsteps::FootstepPlanner;
 use crate::gait::Gait;
-use crate::phase::{GaitReference, Swing};
+use crate::phase::{FootPose, GaitReference, Swing};
 use crate::support::Soles;
 use crate::task::Task;
 
@@ -21,7 +21,9 @@ use crate::task::Task;
 pub(crate) struct Falling<'a> {
     /// The measured divergent component of motion, m.
     pub(crate) dcm: Vector2<f64>,
-    /// Its reference, m.
+    /// The measured centre of mass over the ground, m.
+    pub(crate) com: Vector2<f64>,
+    /// Reference of the divergent component of motion, m.
     pub(crate) reference: Vector2<f64>,
     /// Natural frequency of the pendulum, 1/s.
     pub(crate) omega: f64,
@@ -49,6 +51,7 @@ impl<'a> Falling<'a> {
     ) -> Self {
         Self {
             dcm: balance.dcm(),
+            com: balance.com,
             reference: reference.dcm,
             omega: balance.omega,
             soles,
@@ -172,13 +175,26 @@ impl LandingSearch {
         }
     }
 
-    /// As far from the standing foot as this foot goes.
-    pub(crate) fn far_out(&self, gait: &Gait, swing: &Swing) -> PlanarPose {
+    /// Where a foot in the air that is `here` is as far out as this from where it stands beside the other one, and as much higher as a
+    /// stretched leg has it then.
+    pub(crate) fn far_out(
+        &self,
+        gait: &Gait,
+        swing: &Swing,
+        here: &FootPose,
+        out_m: f64,
+    ) -> FootPose {
+        let leg_m = self.planner.leg_m;
         let stance = gait.feet[swing.side.other().index()].planar;
-        let mut out = stance.relative(&swing.planned.planar);
-        out.y_m = swing.side.sign() * (self.config.stance_width + self.planner.leg_m);
-        self.planner
-            .within_catch(&stance, &stance.compose(&out), swing.side)
+        let mut out = stance.relative(&here.planar);
+        let across_m = (out.y_m * swing.side.sign()).max(self.config.stance_width + out_m);
+        out.y_m = swing.side.sign() * across_m;
+        let level_m = (leg_m * leg_m - out_m * out_m).max(0.0).sqrt();
+        FootPose {
+            planar: stance.compose(&out),
+            z_m: swing.planned.z_m + leg_m - level_m,
+            ..swing.planned
+        }
     }
 
     /// A speed of so many heights of the hips for each time constant of the pendulum.

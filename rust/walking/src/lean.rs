@@ -185,6 +185,7 @@ mod tests {
                 Vector3::new(0.0, 0.0425, 0.0),
                 Vector3::new(0.0, -0.0425, 0.0),
             ],
+            roll_rad: 0.0,
         }
     }
 

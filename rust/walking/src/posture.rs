@@ -28,6 +28,8 @@ pub(crate) struct PostureMoment<'a> {
     pub(crate) course: Course<'a>,
     /// The measured balance.
     pub(crate) balance: &'a Balance,
+    /// How far the torso is to roll to its right, rad.
+    pub(crate) roll_rad: f64,
     /// How the soles are turned.
     pub(crate) ankles: &'a Ankles,
     /// Time since the last tick, s.
@@ -94,6 +96,7 @@ impl Posture {
             heading: UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_rad),
             com: about.coords,
             hips: [0, 1].map(|index| *self.legs[index].hip()),
+            roll_rad: moment.roll_rad,
         };
         let course = &moment.course;
         let (height, lean_rad) = self

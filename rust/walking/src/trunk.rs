@@ -11,6 +11,8 @@ pub(crate) struct Trunk {
     pub(crate) com: Vector3<f64>,
     /// Centres of the hips in the torso, m.
     pub(crate) hips: [Vector3<f64>; 2],
+    /// How far it rolls to its right, rad.
+    pub(crate) roll_rad: f64,
 }
 
 /// Where the torso is over the centre of mass.
@@ -27,10 +29,14 @@ pub(crate) struct TrunkPlace {
 impl Trunk {
     /// From the torso to the plan's axes as it leans forward by this angle.
     pub(crate) fn rotation(&self, lean_rad: f64) -> UnitQuaternion<f64> {
-        if lean_rad == 0.0 {
-            return self.heading;
+        let mut rotation = self.heading;
+        if self.roll_rad != 0.0 {
+            rotation *= UnitQuaternion::from_axis_angle(&Vector3::x_axis(), self.roll_rad);
         }
-        self.heading * UnitQuaternion::from_axis_angle(&Vector3::y_axis(), lean_rad)
+        if lean_rad != 0.0 {
+            rotation *= UnitQuaternion::from_axis_angle(&Vector3::y_axis(), lean_rad);
+        }
+        rotation
     }
 
     /// Where it is as it leans forward by this angle.
@@ -57,6 +63,7 @@ mod tests {
                 Vector3::new(0.0, 0.05, -0.1),
                 Vector3::new(0.0, -0.05, -0.1),
             ],
+            roll_rad: 0.0,
         };
         let back_m = |lean_rad| {
             let place = trunk.place(lean_rad);

@@ -39,6 +39,23 @@ settings! {
         stride: f64 = 0.7, "1", POSITIVE;
         /// How far over the outer edge a foot in the air is told to be a counterweight, in heights of the hips.
         out: f64 = 0.02, "1", NOT_NEGATIVE;
+        /// How far towards the outer edge of the sole that stands, from its middle, the divergent component of motion is at once taken
+        /// for a push, as a share of half a sole's width.
+        tips: f64 = 0.25, "1", NOT_NEGATIVE;
+        /// How far out it is when foot and torso do all they can as a counterweight, in the same way.
+        tipped: f64 = 0.5, "1", POSITIVE;
+        /// How far out a foot that is a counterweight goes, in heights of the hips.
+        weigh: f64 = 0.7, "1", SHARE;
+        /// How fast it goes there, in heights of the hips for each time constant of the pendulum.
+        out_speed: f64 = 1.5, "1", POSITIVE;
+        /// How fast the clock of the step runs until then.
+        out_rate: f64 = 2.0, "1", POSITIVE;
+        /// How far the torso rolls to the side to which the robot falls over the outer edge.
+        roll: f64 = 0.3, "rad", within(0.0, 1.0);
+        /// How fast it does, for each time constant of the pendulum.
+        roll_speed: f64 = 0.5, "rad", POSITIVE;
+        /// How fast it comes back, for each time constant of the pendulum.
+        roll_back: f64 = 0.1, "rad", POSITIVE;
         /// Share of the swing at which a foot that is a counterweight waits.
         out_share: f64 = 0.5, "1", SHARE;
         /// How many times faster than in a walk a foot goes at most.
@@ -56,6 +73,7 @@ settings! {
         /// Largest extra distance between the feet, in heights of the hips.
         aside: f64 = 0.3, "1", POSITIVE;
     }
+    require (tips) < (tipped);
 }
 
 settings! {
