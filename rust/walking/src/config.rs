@@ -35,7 +35,7 @@ settings! {
         hip_stretch: Option<f64> = None, "rad", between(0.0, 1.5);
         /// Where the foot carries: this far from the sole's middle towards the other foot.
         support_inward: f64 = 0.005, "m", within(-1.0, 1.0);
-        /// The same while a careful step is taken, for whose whole time the weight rests on one foot; without it, as at any other time.
+        /// Where the foot carries while a careful step is taken, so far towards the other foot; without it, as far as `support_inward`.
         climb_inward: Option<f64> = None, "m", within(-1.0, 1.0);
         /// Where along the sole it carries, forward of the sole's middle, as far as that lies in the middle half of what bears; without
         /// it, in the middle of what bears.

@@ -56,7 +56,8 @@ impl Gait {
         self.support_point_at(feet, side, self.config.support_inward, 0.0)
     }
 
-    /// The same, so far towards the other foot, and so much further forward where what bears has room for it.
+    /// Point under one of `feet` where it carries that is so far towards the other foot, and as much further forward as what bears has
+    /// room for.
     fn support_point_at(
         &self,
         feet: &[FootPose; 2],
