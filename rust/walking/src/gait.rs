@@ -46,8 +46,8 @@ impl Gait {
     }
 
     /// Point under one of `feet` where it is to carry: the middle of what bears or, near it, `support_ahead`; towards the other foot by
-    /// `support_inward` or `climb_inward`, and forward by `support_forward` where it stands higher than the other one: the knee that lifts the body bears
-    /// less so.
+    /// `support_inward` or `climb_inward`, and forward by `support_forward` where it stands higher than the other one: the knee that lifts
+    /// the body bears less so.
     pub fn support_point(&self, feet: &[FootPose; 2], side: Side) -> Vector2<f64> {
         let (foot, other) = (&feet[side.index()], &feet[side.other().index()]);
         let [rear, front] = foot
