@@ -10,8 +10,8 @@ use crate::config::GaitConfig;
 
 impl GaitConfig {
     /// Sets what `[gait]` does not say: a quicker step, after which an error has grown as much less as the sole is narrower; a margin
-    /// and a side step that are the same share of the sole; the weight further in, but not in careful steps, in which a foot carries
-    /// for longer than a fall to either side takes; and feet nearer to each other, for what a step does wrong goes with how far the
+    /// and a side step that are the same share of the sole; the weight further in, but less so in careful steps, in which a foot
+    /// carries for longer than a fall to either side takes; and feet nearer to each other, for what a step does wrong goes with how far the
     /// weight sways, and with how far a leg is thrown aside. `omega`: of the pendulum, 1/s.
     pub(crate) fn fit_soles(&mut self, body: &Body, said: &serde_json::Value, omega: f64) {
         let description = body.description();
@@ -41,12 +41,13 @@ impl GaitConfig {
         }
         let room_m = (0.5 * width_m - self.sole_margin).max(0.0);
         if !is_said("support_inward") {
-            if !is_said("climb_inward") {
-                self.climb_inward = Some(self.support_inward * share);
-            }
             let lacks_m = 0.5 * (scaled_m - width_m);
             let inward_m = self.support_inward + self.tuning.sole_fit.inward * lacks_m;
             self.support_inward = inward_m.min(room_m);
+        }
+        if !is_said("climb_inward") {
+            let most_m = self.tuning.sole_fit.careful * 0.5 * width_m;
+            self.climb_inward = Some(self.support_inward.min(most_m));
         }
         if !is_said("stance_width") {
             let enough_m = self.tuning.sole_fit.apart * room_m + 2.0 * self.support_inward;
@@ -82,9 +83,11 @@ mod tests {
         assert!(narrow.sole_margin < scaled.sole_margin);
         assert!(narrow.support_inward > scaled.support_inward);
         assert!(narrow.max_sideways < scaled.max_sideways);
-        assert!(
-            narrow.climb_inward.unwrap() < scaled.support_inward && scaled.climb_inward.is_none()
-        );
+        assert_eq!(scaled.climb_inward, None);
+        let (narrowest, least) = (gait(0.04, serde_json::Value::Null), 0.02);
+        let careful = narrowest.climb_inward.unwrap();
+        assert!(careful < narrowest.support_inward);
+        assert!((careful - narrowest.tuning.sole_fit.careful * least).abs() < 1e-12);
     }
 
     #[test]

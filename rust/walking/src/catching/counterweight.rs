@@ -31,22 +31,19 @@ impl Catching {
         self.roll_rad += (goal_rad - self.roll_rad).clamp(-most_rad, most_rad);
     }
 
-    /// The foot over whose outer edge the robot would fall, and how far this point has got there from the middle of that sole, as a share
-    /// of half its width.
+    /// The foot over whose outer edge the robot would fall, and how far this point has got there from the middle of that sole, in heights
+    /// of the hips.
     pub(super) fn outwards(&self, gait: &Gait, point: &Vector2<f64>) -> (Side, f64) {
-        let share = |side: Side| {
+        let out = |side: Side| {
             let foot = gait.feet[side.index()].planar.inverse();
             let (_, left_m) = foot.apply(point.x, point.y);
-            (
-                side,
-                left_m * side.sign() / self.search.planner.half_sole_m().y,
-            )
+            (side, left_m * side.sign() / self.search.planner.leg_m)
         };
         match &gait.phase {
             GaitPhase::Standing => (Side::Left, 0.0),
-            GaitPhase::Single { swing, .. } => share(swing.side.other()),
+            GaitPhase::Single { swing, .. } => out(swing.side.other()),
             GaitPhase::Double { .. } => {
-                let [left, right] = Side::BOTH.map(share);
+                let [left, right] = Side::BOTH.map(out);
                 if left.1 > right.1 { left } else { right }
             }
         }
@@ -55,8 +52,8 @@ impl Catching {
     /// What share of all that a counterweight can do is due.
     pub(super) fn weighing(&self, gait: &Gait, falling: &Falling<'_>) -> (Side, f64) {
         let tuning = &self.config.tuning.catching;
-        let (outer, share) = self.outwards(gait, &falling.dcm);
-        let weighs = (share - tuning.tips) / (tuning.tipped - tuning.tips);
+        let (outer, out) = self.outwards(gait, &falling.dcm);
+        let weighs = (out - tuning.tips) / (tuning.tipped - tuning.tips);
         (outer, weighs.clamp(0.0, 1.0))
     }
 

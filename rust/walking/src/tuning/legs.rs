@@ -43,6 +43,8 @@ settings! {
         quickest: f64 = 0.6, "1", above_to(0.0, 1.0);
         /// How far the weight goes inwards, as a share of what half a sole lacks.
         inward: f64 = 0.25, "1", SHARE;
+        /// How far in the weight goes at most in careful steps, as a share of half a sole.
+        careful: f64 = 0.33, "1", SHARE;
         /// The feet stand nearer to each other where they carry farther apart than so many times what half a sole leaves on either
         /// side of its middle.
         apart: f64 = 2.4, "1", POSITIVE;

@@ -40,10 +40,10 @@ settings! {
         /// How far over the outer edge a foot in the air is told to be a counterweight, in heights of the hips.
         out: f64 = 0.02, "1", NOT_NEGATIVE;
         /// How far towards the outer edge of the sole that stands, from its middle, the divergent component of motion is at once taken
-        /// for a push, as a share of half a sole's width.
-        tips: f64 = 0.25, "1", NOT_NEGATIVE;
+        /// for a push, in heights of the hips: a quiet walk goes as far with any sole, however narrow.
+        tips: f64 = 0.042, "1", NOT_NEGATIVE;
         /// How far out it is when foot and torso do all they can as a counterweight, in the same way.
-        tipped: f64 = 0.5, "1", POSITIVE;
+        tipped: f64 = 0.084, "1", POSITIVE;
         /// How far out a foot that is a counterweight goes, in heights of the hips.
         weigh: f64 = 0.7, "1", SHARE;
         /// How fast it goes there, in heights of the hips for each time constant of the pendulum.
