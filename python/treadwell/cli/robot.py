@@ -177,19 +177,20 @@ def _show_gait(gait: Mapping[str, Any]) -> None:
         rows.append((word, f"{asked} by [gait]", f"{reached} by the legs"))
     for word, key in (("highest step up", "up"), ("highest step down", "down")):
         found = gait[key]
-        bears = ""
+        ends = found["ends"]
+        can = f"none by statics: {ends}; `--walk` tries what it can in motion"
         if found["steps"]:
             last = found["steps"][-1]
-            bears = (
-                f": knee {last['knee_torque']:.1f} N m, {last['joint']} at "
+            can = (
+                f"{1e3 * found['highest']:.0f} mm by legs and motors: "
+                f"knee {last['knee_torque']:.1f} N m, {last['joint']} at "
                 f"{100 * last['share']:.0f} % of its peak"
-            )
-        ends = f"; beyond, {found['ends']}" if found["ends"] else ""
+            ) + (f"; beyond, {ends}" if ends else "")
         rows.append(
             (
                 word,
                 f"{1e3 * found['asked']:.0f} mm by [gait]",
-                f"{1e3 * found['highest']:.0f} mm by legs and motors{bears}{ends}",
+                can,
             )
         )
     rows.append(("speed", f"{gait['speed']:.2f} m/s", ""))
