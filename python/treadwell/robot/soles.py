@@ -48,7 +48,7 @@ class Sole:
         orientation: (w, x, y, z) from its frame to the link's; None where the link's serves.
         filled: share of the rectangle around it that it fills.
         plate: how thick a plate is that its shapes stand for, m, where those touch the ground in
-            points and lines alone; 0 where a face of them does.
+            points and lines alone all around the rectangle; 0 where a face of them does.
     """
 
     position: tuple[float, float, float]
@@ -102,8 +102,9 @@ def find_sole(model: mujoco.MjModel, data: mujoco.MjData, link: int, forward: Fl
         mujoco.mju_mat2Quat(quat, (rotation.T @ axes).reshape(-1))
         w, x, y, z = (float(value) for value in quat)
         orientation = (w, x, y, z)
-    plate = _plate(model, data, standing, axes[:, 2])
-    width = float(size[1]) * (1.0 if fill >= FULL or plate else fill)
+    full = fill >= FULL
+    plate = _plate(model, data, standing, axes[:, 2]) if full else 0.0
+    width = float(size[1]) * (1.0 if full else fill)
     position = (float(place[0]), float(place[1]), float(place[2]))
     return Sole(position, float(size[0]), width, orientation, fill, plate)
 

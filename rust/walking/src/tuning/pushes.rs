@@ -41,9 +41,9 @@ settings! {
         out: f64 = 0.02, "1", NOT_NEGATIVE;
         /// How far towards the outer edge of the sole that stands, from its middle, the divergent component of motion is at once taken
         /// for a push, in heights of the hips: a quiet walk goes as far with any sole, however narrow.
-        tips: f64 = 0.042, "1", NOT_NEGATIVE;
+        tips: f64 = 0.07, "1", NOT_NEGATIVE;
         /// How far out it is when foot and torso do all they can as a counterweight, in the same way.
-        tipped: f64 = 0.084, "1", POSITIVE;
+        tipped: f64 = 0.12, "1", POSITIVE;
         /// How far out a foot that is a counterweight goes, in heights of the hips.
         weigh: f64 = 0.7, "1", SHARE;
         /// How fast it goes there, in heights of the hips for each time constant of the pendulum.
