@@ -25,6 +25,7 @@ pub struct Descent {
 }
 
 #[derive(Debug, Clone, Copy)]
+#[expect(clippy::struct_field_names, reason = "all three are lengths")]
 struct DescendingLeg {
     /// How far ahead of the sole's middle the ankle is, m.
     ankle_ahead_m: f64,
