@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.robot.joint_roles import KNEE, roles
+from treadwell.robot.joint_roles import KNEE, nearest_to_axes, roles
 from treadwell.robot.soles import Sole, find_sole
 from treadwell.robot.surfaces import cloud_of, solid_geoms
 
@@ -168,13 +168,7 @@ class Anatomy:
     def hip(self, leg: FoundLeg) -> Floats:
         """Return where the axes above a leg's knee come nearest to each other, (3,) m."""
         above = [self.model.joint(name).id for name in leg.joints[: leg.roles.index(KNEE)]]
-        anchors, axes = self.data.xanchor[above], self.data.xaxis[above]
-        across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-        # Axes that are parallel leave a direction open: there it is at the mean of the anchors.
-        weak = 1e-9 * np.eye(3)
-        right = np.einsum("nij,nj->i", across, anchors) + weak @ anchors.mean(axis=0)
-        place: Floats = np.linalg.solve(across.sum(axis=0) + weak, right)
-        return place
+        return nearest_to_axes(self.data, above)
 
     def axis(self, joint: int) -> Floats:
         """Return a joint's axis (3,) in the root's frame."""

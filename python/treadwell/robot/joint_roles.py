@@ -41,6 +41,18 @@ def roles(data: mujoco.MjData, joints: Sequence[int], sole: Floats, forward: Flo
     return [*hip, KNEE, *ankle]
 
 
+def nearest_to_axes(data: mujoco.MjData, joints: Sequence[int]) -> Floats:
+    """Return the place (3,) that is nearest to the axes of joints, m: of a hip's, its centre."""
+    chosen = list(joints)
+    anchors, axes = data.xanchor[chosen], data.xaxis[chosen]
+    across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
+    # Axes that are parallel leave a direction open: there it is at the mean of the anchors.
+    weak = 1e-9 * np.eye(3)
+    right = np.einsum("nij,nj->i", across, anchors) + weak @ anchors.mean(axis=0)
+    place: Floats = np.linalg.solve(across.sum(axis=0) + weak, right)
+    return place
+
+
 def _knee(data: mujoco.MjData, joints: Sequence[int], sole: Floats) -> int:
     """Return the place among the joints of the one that changes the leg's length most."""
     hip = data.xanchor[joints[0]]

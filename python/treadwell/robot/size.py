@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.robot.file import LegTable, RobotFile
-from treadwell.robot.joint_roles import ANKLE_PITCH, KNEE, roles
+from treadwell.robot.joint_roles import ANKLE_PITCH, KNEE, nearest_to_axes, roles
 
 Floats = NDArray[np.float64]
 
@@ -75,7 +75,7 @@ class Upright:
         if knee == 0:
             # No hip: as far as the first joint is above the ground.
             return float(self.data.xanchor[joints[0]][2] - self.sole(leg)[2])
-        hip = self._centre(joints[:knee])
+        hip = nearest_to_axes(self.data, joints[:knee])
         ankle = self.data.xanchor[joints[self._ankle(leg, knee)]]
         thigh = self._from_axis(hip, joints[knee])
         shank = self._from_axis(ankle, joints[knee])
@@ -94,16 +94,6 @@ class Upright:
         joints = [self.model.joint(name).id for name in leg.joints]
         forward = self.data.xmat[1].reshape(3, 3)[:, 0]
         return roles(self.data, joints, self.sole(leg), forward)
-
-    def _centre(self, joints: list[int]) -> Floats:
-        """Return the place (3,) that is nearest to the axes of joints, m."""
-        anchors, axes = self.data.xanchor[joints], self.data.xaxis[joints]
-        across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-        # Axes that are parallel leave a direction open: there it is at the mean of the anchors.
-        weak = 1e-9 * np.eye(3)
-        right = np.einsum("nij,nj->i", across, anchors) + weak @ anchors.mean(axis=0)
-        place: Floats = np.linalg.solve(across.sum(axis=0) + weak, right)
-        return place
 
     def _from_axis(self, place: Floats, joint: int) -> float:
         along = np.cross(self.data.xaxis[joint], place - self.data.xanchor[joint])

@@ -1,7 +1,8 @@
 //! Catching a push that ankles alone cannot hold: a step at once from a stand, and of a step that is under way both place and time.
 //!
-//! Nothing here acts on a robot that is not pushed: the divergent component of motion has to be farther off its reference, and for
-//! longer, than a walk or a landing ever puts it. Where and when a foot lands, [`crate::landing_search`] says.
+//! Nothing here acts on a robot that is not pushed and does not stumble: the divergent component of motion has to be farther off its
+//! reference, and for longer, than a walk or a landing ever puts it, or farther over the outer edge of the foot that stands. Where and
+//! when a foot lands, [`crate::landing_search`] says.
 
 use robot::Side;
 
