@@ -28,6 +28,7 @@ LINE = (
 FOUR = ("pitch", "knee", "pitch", "roll")
 THIRD = leg("left", SIX, BOX_FOOT).replace("left", "third").replace("0 0.05 -0.05", "-.1 0 -0.05")
 BOTH = leg("left", SIX, BOX_FOOT) + leg("right", SIX, BOX_FOOT)
+UNLIKE = leg("left", SIX, BOX_FOOT) + leg("right", ("yaw", *SIX), BOX_FOOT)
 WHEELED = "".join(
     f'<body name="{side}_wheel" pos="0 {y} -0.05"><joint name="{side}" axis="0 1 0"/>{WHEEL}</body>'
     for side, y in (("left", 0.1), ("right", -0.1))
@@ -40,6 +41,7 @@ WHEELED = "".join(
         (biped(FOUR), "the left leg has 4 hinges (left_0_pitch, left_1_knee"),
         (biped(SIX, legs=BOTH + THIRD), "stands on 3 feet (left_5_roll_link, third_5_roll_link"),
         (biped(SIX, legs=leg("left", SIX, BOX_FOOT)), "stands on 1 foot (left_5_roll_link)"),
+        (biped(SIX, legs=UNLIKE), "the left leg has 6 hinges, the right one 7: as many are needed"),
         (biped(SIX, legs=WHEELED), "stands on wheels (left_wheel, right_wheel)"),
         (biped((*SIX[:5], "pitch"), WHEEL), "stands on wheels (left_5_pitch_link"),
         (biped(foot=POINT), "the left leg has no sole: 'left_5_roll_link' touches the ground in a"),

@@ -41,6 +41,9 @@ def leg_faults(anatomy: Anatomy) -> list[str]:
     faults = []
     for side, foot in zip(("left", "right"), anatomy.feet, strict=True):
         faults += [f"the {side} leg {line}" for line in _faults(anatomy, foot)]
+    left, right = (len(anatomy.leg_chain(foot)) for foot in anatomy.feet)
+    if not faults and left != right:
+        faults.append(f"the left leg has {left} hinges, the right one {right}: as many are needed")
     return faults
 
 
