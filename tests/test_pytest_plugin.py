@@ -125,6 +125,24 @@ def test_without_seeds_a_scenario_is_one_test_of_its_own_seed(pytester: pytest.P
     done.stdout.fnmatch_lines(["small.toml::small PASSED*"])
 
 
+@pytest.mark.usefixtures("outcome")
+def test_the_python_that_a_scenario_names_is_said_before_it_runs(
+    pytester: pytest.Pytester,
+) -> None:
+    code = pytester.makepyfile(
+        own_part="class Mine:\n    def plan(self, view, stairs, start, goal): ...\n"
+    )
+    pytester.syspathinsert()
+    own = SCENARIO + '[navigation]\nplanner = "own_part:Mine"\n'
+    pytester.makefile(".toml", small=SCENARIO, own=own)
+    said = f"*own.toml: runs planner own_part:Mine ({code})"
+    done = pytester.runpytest_inprocess("--treadwell-seeds", "0-1")
+    done.stdout.fnmatch_lines([said, "", "*.toml *"], consecutive=True)
+    assert done.stdout.str().count("runs planner") == 1
+    done = pytester.runpytest_inprocess("--treadwell-no-user-code")
+    done.stdout.no_fnmatch_line("*runs planner*")
+
+
 @pytest.mark.parametrize(("option", "ini"), [(["--treadwell-seeds", "4-0"], ""), ([], "x")])
 def test_bad_seeds_end_pytest_with_one_line(
     pytester: pytest.Pytester, option: list[str], ini: str

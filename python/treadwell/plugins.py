@@ -84,6 +84,11 @@ class ForeignPart:
         except InputError as error:
             raise InputError(f"navigation.{self.slot}: {self.name}: {error}") from None
 
+    def said(self, file: Path | None) -> str:
+        """Return what is told before it runs, with the file that `examined` returned."""
+        named = f"{self.name} = {self.target}" if self.installed else self.name
+        return f"runs {self.slot} {named}" + (f" ({file})" if file else "")
+
 
 def arguments(slot: str) -> dict[str, tuple[str, ...]]:
     """Return the methods of a slot's protocol, each with the arguments that it is called with."""

@@ -89,6 +89,26 @@ def is_scenario(path: Path) -> bool:
     return "schema" in keys and {"name", "position"} & keys != set() and not is_suite
 
 
+def pytest_report_collectionfinish(config: pytest.Config, items: list[pytest.Item]) -> list[str]:
+    """Return which Python the collected scenario files are about to run, a line each."""
+    if not user_code(config):
+        return []
+    files = dict.fromkeys(item.path for item in items if isinstance(item, ScenarioItem))
+    return [f"{path}: {line}" for path in files for line in _python_of(path)]
+
+
+def _python_of(path: Path) -> list[str]:
+    """Return what `treadwell run` says of a file's Python; nothing of a file that is refused."""
+    from treadwell.plugins import examined, foreign_parts
+    from treadwell.scenario.loading import load_scenario
+
+    try:
+        parts = foreign_parts(load_scenario(path).navigation.slots())
+        return [part.said(file) for part, file in examined(parts, str(path)).items()]
+    except TreadwellError:
+        return []  # its test says why
+
+
 class ScenarioFile(pytest.File):
     """A scenario file."""
 

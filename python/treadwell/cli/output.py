@@ -58,8 +58,7 @@ def announce(parts: "Mapping[ForeignPart, Path | None]") -> None:
         parts: what `treadwell.plugins.examined` returned.
     """
     for part, file in parts.items():
-        named = f"{part.name} = {part.target}" if part.installed else part.name
-        write_message(f"python:    runs {part.slot} {named}" + (f" ({file})" if file else ""))
+        write_message(f"python:    {part.said(file)}")
 
 
 _WIDTH_OF_A_FILE: Final = 160
