@@ -8,11 +8,12 @@ wherever they stand; with `--structure` values, keys and types of TOML and JSON,
 logs, inside of their chunks, too. What MuJoCo builds (meshes, worlds) is built here without the
 child process that stands around it in the program: a crash or a hang of it ends one worker, is
 counted as contained, and tried again in the child. The cases follow from `--seed`; what is at fault
-is kept in `--keep`.
+is kept in `--keep`. `--only` takes some kinds of files, `model,wire` for example.
 """
 
 import argparse
 import json
+import os
 import resource
 import subprocess
 import sys
@@ -73,12 +74,17 @@ STRUCTURE: Kinds = {
     "results.json": (*READERS["results.json"], fuzz_structure.json_of),
     "result": (*READERS["result"], fuzz_structure.json_of),
     "log": (READERS["log"][0], read_log, fuzz_structure.log_of),
+    "camera table": (*READERS["camera table"], fuzz_structure.toml_of),
+    "wire": (*READERS["wire"], fuzz_structure.hello_of),
+    "model": (*READERS["model"], fuzz_structure.xml_of),
 }
 WAYS: dict[str, Kinds] = {
     "bytes": {kind: (*reader, changed) for kind, reader in READERS.items()},
     "structure": STRUCTURE,
 }
 """How files are changed -> kind -> file, reader and what changes it."""
+ONLY = "TREADWELL_FUZZ_ONLY"
+"""The variable by which workers are told the kinds that `--only` names."""
 
 
 def case(good: Path, here: Path, way: str, seed: int, number: int) -> tuple[str, Path]:
@@ -93,7 +99,9 @@ def case(good: Path, here: Path, way: str, seed: int, number: int) -> tuple[str,
 
 def kind_of(way: str, number: int) -> str:
     """Return the kind of a case: they take turns."""
-    return list(WAYS[way])[number % len(WAYS[way])]
+    named = [kind for kind in os.environ.get(ONLY, "").split(",") if kind]
+    kinds = named or list(WAYS[way])
+    return kinds[number % len(kinds)]
 
 
 def tried(read: Reader, path: Path) -> str:
@@ -192,16 +200,20 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--structure", action="store_true", help="change files by their structure")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--keep", type=Path)
+    parser.add_argument("--keep", type=Path, help="where files at fault are kept")
+    parser.add_argument("--only", default="", metavar="KIND,KIND", help="files of these kinds")
     add_options(parser)
     options = parser.parse_args()
     way = "structure" if options.structure else "bytes"
+    if unknown := {kind for kind in options.only.split(",") if kind} - set(WAYS[way]):
+        parser.error(f"--only {', '.join(unknown)}: there are {', '.join(WAYS[way])}")
+    os.environ[ONLY] = options.only
     with tempfile.TemporaryDirectory() as folder:
         good = Path(folder)
         seeds(good)
         found = fuzz(options.count, options.seed, good, options.keep, way)
     rows = []
-    for kind in WAYS[way]:
+    for kind in dict.fromkeys(kind for kind, _ in found):
         came = {what: times for (one, what), times in found.items() if one == kind}
         print(f"{kind:12s} {came}")
         wrong = f"{came.get('FAULT', 0)} in {sum(came.values()):,}"

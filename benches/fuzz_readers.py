@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from fuzz_guests import CAMERA, GUESTS, guests, read_model
 from PIL import Image
 
 from treadwell._core import Octree
@@ -36,7 +37,6 @@ WORLD = b"""<mujoco><asset><mesh name="m" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></as
 <geom type="mesh" mesh="m"/>
 </worldbody></mujoco>"""
 OBJ = b"v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nv 0 0 0.2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
-CAMERA = "width = 16\nheight = 12\nfx = 20.0\nfy = 20.0\ncx = 7.5\ncy = 5.5\ndepth_scale = 1000\n"
 LASER = b"""VERTEX2 0 1.0 2.0 0.5
 ROBOTLASER1 0 -1.57 3.14 1.57 50.0 0.1 0 3 1.0 2.0 81.83 0 1 2 0.5 1 2 0.5 0 0 0 0 0 5.5 h 0.5
 FLASER 3 1.0 2.0 3.0 5 6 0.0 5.1 6 0.0 976053557.5 host 0.5
@@ -164,9 +164,10 @@ READERS: dict[str, tuple[str, Reader]] = {
     "bag": ("run.mcap", _bag),
     "depth image": ("depth.png", _depths),
     "depth array": ("depth.npy", _depths),
+    **GUESTS,
 }
 """Kind -> its file's name, and what reads it."""
-BUILT = (_world, _mesh)
+BUILT = (_world, _mesh, read_model)
 """What the program does in a child process of its own."""
 
 
@@ -199,6 +200,7 @@ def seeds(folder: Path) -> None:
     tree.write(str(folder / "x.ot"))
     tree.write(str(folder / "x.bt"))
     _recordings(folder, run)
+    guests(folder)
 
 
 def _recordings(folder: Path, run: Path) -> None:

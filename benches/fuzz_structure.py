@@ -1,4 +1,4 @@
-"""Changes files by their structure: values, keys and types of tables, records of logs."""
+"""Changes files by their structure: values, keys, types of tables, elements, records of logs."""
 
 import copy
 import json
@@ -6,6 +6,7 @@ import struct
 import tomllib
 import zlib
 from typing import Any, Final
+from xml.etree import ElementTree
 
 import lz4.frame
 import numpy as np
@@ -18,6 +19,21 @@ VALUES: Final[tuple[Any, ...]] = (
     [0.0, -0.0], [1.0] * 200, {"x": {"x": {}}}, "navigation", "qrio", "box", "stairs", "a.b:C",
 )  # fmt: skip
 """What a value becomes."""
+WORDS: Final = (
+    "",
+    "x",
+    "nan",
+    "-1",
+    "0",
+    "1e308",
+    "1e-308",
+    "2147483648",
+    "true",
+    "0 0 0",
+    "1 1 1 1",
+)
+"""What an attribute becomes."""
+FACTORS: Final = (-1.0, 0.0, 0.5, 2.0, 10.0, 1000.0, 1e-6)
 DEEP: Final = 30
 _MAGIC: Final = b"\x89MCAP0\r\n"
 _CHUNK, _MESSAGE = 6, 5
@@ -88,6 +104,50 @@ def json_of(content: bytes, random: np.random.Generator) -> bytes:
     at = int(random.integers(len(lines)))
     lines[at] = json.dumps(changed_table(json.loads(lines[at]), random))
     return "".join(f"{line}\n" for line in lines).encode()
+
+
+def xml_of(content: bytes, random: np.random.Generator) -> bytes:
+    """Return an MJCF with one to four of its elements or their attributes changed."""
+    root = ElementTree.fromstring(content.decode())
+    for _ in range(int(random.integers(1, 5))):
+        below = [(parent, child) for parent in root.iter() for child in parent]
+        if not below:
+            break
+        parent, child = below[int(random.integers(len(below)))]
+        kind = int(random.integers(0, 9))
+        other = below[int(random.integers(len(below)))][0]
+        if kind == 0:
+            parent.remove(child)
+        elif kind == 1:
+            parent.append(copy.deepcopy(child))
+        elif kind == 2 and other not in set(child.iter()):
+            parent.remove(child)
+            other.append(child)
+        elif child.attrib:
+            _change_attribute(child, kind, random)
+    return ElementTree.tostring(root)
+
+
+def _change_attribute(element: ElementTree.Element, kind: int, random: np.random.Generator) -> None:
+    key = list(element.attrib)[int(random.integers(len(element.attrib)))]
+    words = element.attrib[key].split()
+    if kind == 3:
+        del element.attrib[key]
+    elif kind == 4 or not words:
+        element.attrib[key] = WORDS[int(random.integers(len(WORDS)))]
+    else:
+        at = int(random.integers(len(words)))
+        try:
+            words[at] = repr(float(words[at]) * FACTORS[int(random.integers(len(FACTORS)))])
+        except ValueError:
+            words[at] += "x"
+        element.attrib[key] = " ".join(words)
+
+
+def hello_of(content: bytes, random: np.random.Generator) -> bytes:
+    """Return a message whose header's table is changed."""
+    header = json.dumps(changed_table(json.loads(content[8:]), random)).encode()
+    return struct.pack("<Q", len(header)) + header
 
 
 Records = list[tuple[int, bytes]]
