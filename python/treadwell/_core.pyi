@@ -69,6 +69,7 @@ __all__ = [
     "standing_things",
     "swept_clearance",
     "tables",
+    "textured_mesh",
     "version",
 ]
 
@@ -96,7 +97,14 @@ def gait_statistics(
     leg_positions: NDArray[np.float64],
 ) -> NDArray[np.float64]: ...
 def ground_points(points: NDArray[np.float64], settings: str = "{}") -> NDArray[np.bool_]: ...
-def mesh_file(to: str, corners: NDArray[np.float32], triangles: NDArray[np.uint32]) -> bytes: ...
+def mesh_file(
+    to: str,
+    corners: NDArray[np.float32],
+    triangles: NDArray[np.uint32],
+    *,
+    colours: NDArray[np.uint8] | None = None,
+    picture: tuple[bytes, NDArray[np.float32]] | None = None,
+) -> bytes: ...
 def parameters(description_json: str | None = ...) -> str: ...
 def point_classes(points: NDArray[np.float64], settings: str = "{}") -> NDArray[np.uint8]: ...
 def split_and_merge(
@@ -107,6 +115,17 @@ def swept_clearance(
     path: NDArray[np.float64], outline: NDArray[np.float64], radius: float
 ) -> float: ...
 def tables() -> list[str]: ...
+def textured_mesh(
+    corners: NDArray[np.float32],
+    triangles: NDArray[np.uint32],
+    views: Sequence[
+        tuple[tuple[float, float], tuple[float, float], NDArray[np.float64], NDArray[np.float32]]
+    ],
+    *,
+    settings: str = "{}",
+) -> tuple[
+    tuple[NDArray[np.float32], NDArray[np.uint32]], NDArray[np.int32], NDArray[np.float32]
+]: ...
 def version() -> str: ...
 
 @final

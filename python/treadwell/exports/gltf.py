@@ -1,6 +1,6 @@
 """glTF files: `mesh.glb`, the surface as the world model kept it, else the floors with their steps.
 
-Binary, metres; y is up, as the format wants it.
+Binary, metres; y is up, as the format wants it. Where the data had colour its pictures are in it.
 """
 
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from treadwell.files import write_bytes
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
 from treadwell.recording.mesh_file import NAME as MESH
-from treadwell.recording.mesh_file import read_mesh
+from treadwell.recording.mesh_file import SurfaceMesh, read_mesh
 
 
 def export_gltf(source: Path, out: Path) -> Sequence[Path]:
@@ -28,9 +28,10 @@ def export_gltf(source: Path, out: Path) -> Sequence[Path]:
     path = out / "mesh.glb"
     if (source / MESH).is_file():
         mesh = read_mesh(source / MESH)
-        corners, triangles = mesh.corners, mesh.triangles
     else:
         vertices, faces = height_mesh(seen_part(read_map(source / MAP).surface, source))
-        corners, triangles = vertices.astype(np.float32), faces.astype(np.uint32)
-    write_bytes(path, mesh_file("gltf", corners, triangles))
+        mesh = SurfaceMesh(vertices.astype(np.float32), faces.astype(np.uint32))
+    shown = mesh.texture
+    picture = None if shown is None else (shown.png(), shown.places)
+    write_bytes(path, mesh_file("gltf", mesh.corners, mesh.triangles, picture=picture))
     return [path]

@@ -56,7 +56,10 @@ def export_ply(source: Path, out: Path) -> Sequence[Path]:
     if (source / MESH).is_file():
         kept = read_mesh(source / MESH)
         written.append(out / "mesh.ply")
-        write_bytes(written[-1], core_mesh_file("ply", kept.corners, kept.triangles))
+        colours = None if kept.texture is None else kept.texture.colours()
+        write_bytes(
+            written[-1], core_mesh_file("ply", kept.corners, kept.triangles, colours=colours)
+        )
     if not (source / RECORDING).is_file():
         return written
     points = cloud(source)

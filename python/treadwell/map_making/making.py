@@ -162,13 +162,15 @@ class _Making:
         unused = self._source.unused + mapper.unused
         found, voxels = mapper.map(), mapper.voxels()
         labelled = self._write_labels(request)
+        surface = mapper.surface()
         if self.recording is not None:
+            if surface is not None:
+                self.recording.surface(surface, mapper.place.offset)
             self.recording.finish(found, mapper.place.offset, voxels)
         lines, probability = mapper.lines(), mapper.probability()
         topology = mapper.topology()
         more = plan_arrays(probability, lines) | (topology.arrays() if topology else {}) | labelled
         write_map(folder / MAP, found, voxels, more)
-        surface = mapper.surface()
         if surface is not None:
             write_mesh(folder / MESH, surface)
         way = Trajectory()

@@ -2,6 +2,7 @@
 
 import json
 from collections import Counter
+from dataclasses import replace
 from time import perf_counter
 from typing import Final
 
@@ -23,9 +24,10 @@ from treadwell.map_making.plan_view import (
     placed_lines,
     plan_view,
 )
-from treadwell.map_making.request import PICTURES, POINTS, MapRequest
+from treadwell.map_making.request import MESH, PICTURES, POINTS, MapRequest
 from treadwell.map_making.sizing import Sizing, pooled, sizing
 from treadwell.map_making.standing_out import StandingOut
+from treadwell.map_making.texture import TexturePictures
 from treadwell.map_memory import MapMemory, RememberedMap
 from treadwell.map_result import MappedLines
 from treadwell.recording.mesh_file import SurfaceMesh
@@ -76,6 +78,7 @@ class Mapper:
             headroom=headroom,
         )
         self._camera: tuple[int, int] | None = None
+        self._pictures = TexturePictures(request.data.pictures if self.world_model == MESH else 0)
         if self._core.needs_surfaces and first.layout == "cloud":
             raise InputError(
                 f"--world-model: found {self.world_model}, which finds its floors in pictures; "
@@ -107,6 +110,7 @@ class Mapper:
             view = self._core.view()
             self._memory.update(view.origin, view.cell, view.kind, view.height, view.sightings)
         self.seconds.append(perf_counter() - started)
+        self._pictures.insert(frame, pose)
         return pose
 
     def map(self) -> RememberedMap:
@@ -146,12 +150,13 @@ class Mapper:
         return np.column_stack([moved, sides]).astype(np.float32)
 
     def surface(self) -> SurfaceMesh | None:
-        """Return the surface as triangles where the model keeps it."""
+        """Return the surface as triangles where the model keeps it, with what it looks like."""
         found = self._core.surface()
         if found is None:
             return None
-        corners, triangles = found
-        return SurfaceMesh((corners + self.place.offset).astype(np.float32), triangles)
+        mesh = self._pictures.shown(SurfaceMesh(*found), self.sizes.parameters)
+        placed = (mesh.corners + self.place.offset).astype(np.float32)
+        return replace(mesh, corners=placed)
 
     def _take(self, frame: RangeFrame, pose: Floats, ground: float) -> bool:
         if frame.depth is not None and frame.camera is not None:

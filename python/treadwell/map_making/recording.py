@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from treadwell.errors import RecordingError
 from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.recording.file import write_fault
+from treadwell.recording.mesh_file import SurfaceMesh
 from treadwell.recording.quiet import first_import
 from treadwell.sources.frame import Floats, moved
 
@@ -96,6 +97,25 @@ class MapRecording:
         rr = self._rr
         points = rr.Points3D(places - offset, colors=colours, radii=_RADIUS * self._cell)
         self._stream.log("world/map/labels", points, static=True)
+
+    def surface(self, mesh: SurfaceMesh, offset: Floats) -> None:
+        """Write the surface, with its pictures where it has some.
+
+        Args:
+            mesh: in the map.
+            offset: (3,) m, from the frame of the recording to the map's.
+        """
+        rr, shown = self._rr, mesh.texture
+        self._stream.log(
+            "world/map/surface",
+            rr.Mesh3D(
+                vertex_positions=mesh.corners - offset,
+                triangle_indices=mesh.triangles,
+                vertex_texcoords=None if shown is None else shown.places,
+                albedo_texture=None if shown is None else shown.picture,
+            ),
+            static=True,
+        )
 
     def finish(self, found: RememberedMap, offset: Floats, voxels: NDArray[np.float32]) -> None:
         """Write the map, and close the file.

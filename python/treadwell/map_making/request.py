@@ -19,6 +19,8 @@ from treadwell.sources.source import POSE_WITHIN_S
 Up = Literal["x", "-x", "y", "-y", "z", "-z"]
 PICTURES, POINTS = "fog", "elevation"
 """World models where none is named: of depth images, of clouds."""
+MESH: Final = "mesh"
+"""The one that keeps surfaces."""
 LANDMARKS: Final = "landmarks"
 """A model for maps alone, of ranges and bearings."""
 _TOP: Final = ("map", "navigation", "classification", "plan_view", LANDMARKS)
@@ -56,6 +58,8 @@ class MapTable(Table):
     wall, furniture, clutter or door: `labels.png`, by `classification.grouping`."""
     columns: Annotated[int, Field(ge=16, le=4096)] = 160
     """Surfaces are found in pictures of so many columns at most: blocks of wider ones are one."""
+    pictures: Annotated[int, Field(ge=0, le=64)] = 16
+    """The world model `mesh` shows so many pictures of data in colour at most; 0: none."""
 
 
 @dataclass(frozen=True, slots=True)

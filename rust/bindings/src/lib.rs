@@ -16,6 +16,7 @@ mod learners;
 mod legs;
 mod lists;
 mod mesh_files;
+mod mesh_textures;
 mod monte_carlo;
 mod moving;
 mod observation;
@@ -54,6 +55,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(landmarks::standing_things, module)?)?;
     module.add_function(wrap_pyfunction!(slip::gait_statistics, module)?)?;
     module.add_function(wrap_pyfunction!(mesh_files::mesh_file, module)?)?;
+    module.add_function(wrap_pyfunction!(mesh_textures::textured_mesh, module)?)?;
     module.add_function(wrap_pyfunction!(version, module)?)?;
     module.add_function(wrap_pyfunction!(lists::components, module)?)?;
     module.add_function(wrap_pyfunction!(lists::tables, module)?)?;

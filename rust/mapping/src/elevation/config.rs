@@ -125,7 +125,7 @@ impl ElevationConfig {
     }
 
     /// How sure a measured height is.
-    pub(crate) fn noise(&self) -> RangeNoise {
+    pub fn noise(&self) -> RangeNoise {
         RangeNoise {
             sigma_m: self.sigma as f32,
             per_metre: self.sigma_per_metre as f32,
