@@ -64,14 +64,15 @@ pub(crate) fn mesh_file<'py>(
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mesh = mesh_of(&corners.readonly(), &triangles.readonly())?;
     let wrong = |shape| Err(PyValueError::new_err(format!("{shape}, one row a corner")));
-    let (count, colours) = (mesh.corners_m.len(), colours.map(|all| all.readonly()));
-    let places = picture.as_ref().map(|(_, places)| places.readonly());
-    let look = match (&colours, &picture, &places) {
+    let (count, colours) = (mesh.corners_m.len(), colours.map(PyArrayMethods::readonly));
+    let (png, places) = picture.unzip();
+    let places = places.map(|places| places.readonly());
+    let look = match (&colours, png, &places) {
         (None, None, _) => MeshLook::Plain,
         (Some(colours), None, _) if colours.as_array().dim() == (count, 3) => {
             MeshLook::Colours(colours.as_slice()?.as_chunks().0)
         }
-        (None, Some((png, _)), Some(places)) if places.as_array().dim() == (count, 2) => {
+        (None, Some(png), Some(places)) if places.as_array().dim() == (count, 2) => {
             let places = places.as_slice()?.as_chunks().0;
             MeshLook::Picture { png, places }
         }
