@@ -161,6 +161,7 @@ BAD = {
     "no_z.pcd": (pcd().replace(b"x y z", b"x y w"), "FIELDS: has no z"),
     "sizes.pcd": (pcd().replace(b"SIZE 2 4 4", b"SIZE 2 4 3"), "must be F of 4 or 8"),
     "data.pcd": (pcd().replace(b"DATA binary", b"DATA bin"), "DATA: found bin; must be ascii"),
+    "none_of_y.pcd": (pcd().replace(b"COUNT 1 1 1", b"COUNT 1 1 0"), "FIELDS: has no y"),
     "counts.pcd": (pcd().replace(b"COUNT 1 1", b"COUNT 1"), "must be as many"),
     "order.ply": (ply().replace(b"little", b"middle"), "format binary_middle_endian"),
     "list.ply": (ply().replace(b"uchar c", b"list uchar int c"), "has a list"),

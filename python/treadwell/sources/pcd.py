@@ -134,6 +134,10 @@ def _header(content: Content) -> _Header:
                 "of 4 or 8, or I or U of 1, 2, 4 or 8"
             )
         types.append(_TYPES[kind, size])
+    # A field of no values takes no room: it is not there.
+    there = [number for number, count in enumerate(counts) if count]
+    names, types = [names[i] for i in there], [types[i] for i in there]
+    counts = [counts[i] for i in there]
     if missing := [name for name in "xyz" if name not in names]:
         raise InputError(f"{where}: FIELDS: has no {', '.join(missing)}")
     points = _numbers(content, told, "POINTS")[0]
@@ -218,7 +222,7 @@ def _compressed(content: Content, header: _Header) -> dict[str, NDArray[Any]]:
     begin = 0
     for name, kind, count in zip(header.names, header.types, header.counts, strict=True):
         size = np.dtype(kind).itemsize * count * header.points
-        if name in ("x", "y", "z", *_COLOURS) and count:
+        if name in ("x", "y", "z", *_COLOURS):
             column = np.frombuffer(whole, kind, count * header.points, begin)
             columns[name] = column.reshape(header.points, count)[:, 0]
         begin += size
