@@ -47,6 +47,7 @@ pub(crate) fn settings() -> CellSettings {
         lone_cells: 2,
         step_sightings: 3,
         max_step: 0.01,
+        step_sigmas: 2.0,
         slope_step: 0.02,
         max_slope: 0.2,
         blind: 0.2,

@@ -133,7 +133,13 @@ impl AStar {
         }
         let (route, end) = if let Some(route) = known {
             let end = end_of(&route, terrain, links, &ends);
-            (route, end)
+            // Who knows but a way out of the window looks first where the level ends, if that is the cheaper way to the goal.
+            let looks = end == PathEnd::Border && terrain.any_edge;
+            let look = looks.then(|| self.viewpoints.route(search, terrain, links, &ends, start));
+            match look.flatten().filter(|look| look.cost < route.cost) {
+                Some(look) => (look, PathEnd::Look),
+                None => (route, end),
+            }
         } else {
             let levels = terrain.any_edge || ends.on_another_level();
             let route = levels.then(|| self.viewpoints.route(search, terrain, links, &ends, start));

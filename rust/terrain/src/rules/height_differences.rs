@@ -52,7 +52,7 @@ fn mark(terrain: &mut Terrain, index: usize, floor: f32) {
             continue;
         }
         let rise = terrain.slopes.step_m(index, next, there - here);
-        if rise > floor {
+        if rise > floor + terrain.noise_m(index, next) {
             terrain.mark_step(index, rise);
             terrain.mark_step(next, rise);
         }
