@@ -29,7 +29,10 @@ impl SlopeCells {
 
     /// Whether a cell is part of a slope that may be walked on.
     pub(crate) fn is_slope(&self, index: usize) -> bool {
-        let is_tilted = self.gradients.get(index).is_some_and(|gradient| *gradient != [0.0; 2]);
+        let is_tilted = self
+            .gradients
+            .get(index)
+            .is_some_and(|gradient| *gradient != [0.0; 2]);
         is_tilted && self.too_steep_at(index).is_none()
     }
 

@@ -147,7 +147,8 @@ impl ReachedView {
         };
         let (own, rule) = (estimate(index, height_m), self.elevation.rise_rule());
         let mut beside = runs(CellArea::of(cell).grown(1), size).flatten();
-        let is_high = beside.any(|other| rule.is_above(own, estimate(other, self.heights_m[other])));
+        let is_high =
+            beside.any(|other| rule.is_above(own, estimate(other, self.heights_m[other])));
         (height_m, is_high)
     }
 

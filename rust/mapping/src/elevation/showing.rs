@@ -74,9 +74,10 @@ impl Elevation {
         let reach = (1 + self.config.edge_rule().reach).max(2);
         for index in runs(area.grown(reach), size).flatten() {
             let known = self.height(index);
-            let (height_m, sigma_m, frames) = known.map_or((f32::NAN, 0.0, 0), |(known, frames)| {
-                (known.height_m, known.variance_m2.sqrt(), frames)
-            });
+            let (height_m, sigma_m, frames) = known
+                .map_or((f32::NAN, 0.0, 0), |(known, frames)| {
+                    (known.height_m, known.variance_m2.sqrt(), frames)
+                });
             (self.heights_m[index], self.seen[index]) = (height_m, frames);
             self.view.sigmas_m.values_mut()[index] = sigma_m;
         }

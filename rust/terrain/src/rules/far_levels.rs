@@ -63,7 +63,8 @@ impl FarLevels {
         }
         let surfaces = view.cells.values();
         let is_slope = |index: &usize| slopes.is_slope(*index);
-        self.joined.extend((0..surfaces.len()).map(|index| is_slope(&index)));
+        self.joined
+            .extend((0..surfaces.len()).map(|index| is_slope(&index)));
         self.next.clear();
         self.next.extend((0..surfaces.len()).filter(is_slope));
         while let Some(here) = self.next.pop() {
@@ -129,12 +130,7 @@ impl FarLevels {
 
 /// Makes unknown what lies on a higher level and was never near, unless a recognised stair or a slope says what it is. What ends lower than `low_m` above
 /// the ground may be a riser. `joined` is what slopes lead up to.
-fn doubt(
-    terrain: &mut Terrain,
-    sight: &Sight<'_>,
-    (ground_m, low_m): (f64, f64),
-    joined: &[bool],
-) {
+fn doubt(terrain: &mut Terrain, sight: &Sight<'_>, (ground_m, low_m): (f64, f64), joined: &[bool]) {
     let range_m = terrain.settings.judge_range;
     let floor_m = terrain.needs.limits.floor_m;
     let surfaces = sight.view.cells.values().iter();
@@ -162,7 +158,7 @@ mod tests {
     use mapping::{FloorView, Surface};
 
     use crate::Rules;
-    use crate::testing::{Floor, terrain};
+    use crate::testing::{Floor, cell, terrain};
 
     fn view(origin_m: f64, surface: Surface) -> FloorView {
         FloorView::new(
@@ -203,6 +199,25 @@ mod tests {
         assert!(!is_doubted(Surface::Floor(-0.09), &[0.0], 1.25));
         assert!(!is_doubted(Surface::Obstacle(0.3), &[0.0], 1.25));
         assert!(is_doubted(Surface::Obstacle(0.1), &[0.0], 1.25));
+    }
+
+    #[test]
+    fn what_a_slope_leads_up_to_is_believed_from_afar_and_what_lies_behind_a_step_beside_it_is_not()
+    {
+        let mut floor = Floor::new();
+        floor.ramp([0.3, -0.5], [0.8, 0.5], [0.0, 0.08]);
+        floor.paint([0.8, -0.5], [1.9, 0.5], Surface::Floor(0.08));
+        floor.paint([0.3, 0.6], [1.9, 1.5], Surface::Floor(0.04));
+        let terrain = floor.after("far_levels");
+        let doubted = |x_m: f64, y_m: f64| terrain.unknown[cell(&terrain, x_m, y_m)];
+        assert!(!doubted(0.825, 0.025) && !doubted(1.825, 0.025));
+        assert!(doubted(1.225, 0.925), "a step of 4 cm leads up to it");
+        floor.paint([1.0, -0.5], [1.2, 0.5], Surface::Floor(0.12));
+        let terrain = floor.after("far_levels");
+        assert!(
+            terrain.unknown[cell(&terrain, 1.825, 0.025)],
+            "behind a step"
+        );
     }
 
     #[test]

@@ -61,7 +61,10 @@ impl PlatformEdges {
         for (index, &ground) in self.ground.iter().enumerate() {
             let unseen = !ground && terrain.height_m[index].is_nan() && !terrain.blocked[index];
             let mut around = around(index, 1, size);
-            if unseen && around.any(|next| self.ground[next] || self.ends_at(next, index, (terrain, sight.view)))
+            if unseen
+                && around.any(|next| {
+                    self.ground[next] || self.ends_at(next, index, (terrain, sight.view))
+                })
             {
                 terrain.mark_edge(index);
                 terrain.open[index] = true;
@@ -80,19 +83,14 @@ impl PlatformEdges {
     }
 
     /// Finds the raised ground that goes on from the robot's level without a step, where it is sloped or its heights are unsure.
-    fn go_further(
-        &mut self,
-        terrain: &Terrain,
-        sight: &Sight<'_>,
-        config: &PlatformEdgesConfig,
-    ) {
+    fn go_further(&mut self, terrain: &Terrain, sight: &Sight<'_>, config: &PlatformEdgesConfig) {
         self.further.clear();
         let is_unsure = || terrain.sigma_m.iter().any(|&sigma_m| sigma_m > 0.0);
         if terrain.slopes.near.is_empty() && !is_unsure() {
             return;
         }
-        let least_m = self.lowest_m(terrain, sight, config)
-            + config.raised * terrain.settings.max_step;
+        let least_m =
+            self.lowest_m(terrain, sight, config) + config.raised * terrain.settings.max_step;
         let floor_m = terrain.needs.limits.floor_m as f32;
         self.further.resize(self.ground.len(), false);
         self.next.clear();
@@ -104,10 +102,11 @@ impl PlatformEdges {
                 let [from_m, to_m] = [here, there].map(|index| terrain.height_m[index]);
                 let is_new = !self.ground[there] && !self.further[there];
                 let (noise_m, slopes) = (terrain.noise_m(here, there), &terrain.slopes);
-                let may_differ = noise_m > 0.0 || slopes.is_near(here) || slopes.is_near(there);
+                let is_unsure = noise_m > 0.0 || slopes.is_near(here) || slopes.is_near(there);
+                let leads_on = is_unsure || self.further[here];
                 // What is no number is no ground.
                 let is_raised = f64::from(to_m) > least_m;
-                let joined = is_new && may_differ && is_raised && !terrain.blocked[there];
+                let joined = is_new && leads_on && is_raised && !terrain.blocked[there];
                 if joined && slopes.step_m(here, there, to_m - from_m) <= floor_m + noise_m {
                     self.further[there] = true;
                     self.next.push(there);
@@ -211,7 +210,8 @@ impl PlatformEdges {
 fn is_raised(terrain: &Terrain, sight: &Sight<'_>, config: &PlatformEdgesConfig) -> bool {
     let below_m = sight.stand.height_m - config.raised * terrain.settings.max_step;
     let lower = |height: &&f32| f64::from(**height) < below_m;
-    lowest_told_m(sight) < below_m || terrain.height_m.iter().filter(lower).count() >= config.lower_cells
+    lowest_told_m(sight) < below_m
+        || terrain.height_m.iter().filter(lower).count() >= config.lower_cells
 }
 
 /// Height of the lowest stair or of the goal, m.
@@ -260,5 +260,46 @@ mod tests {
         let at = cell(&terrain, 0.075, 0.025);
         assert_eq!(terrain.level_m(at), Some(f64::from(0.2_f32)));
         assert!(!terrain.edge[at]);
+    }
+
+    /// The robot on a ramp of 0.2 m, up from the floor to a platform, with nothing seen beside it.
+    fn ramp() -> Floor {
+        let mut floor = Floor::new();
+        floor.paint([-2.0, -2.0], [2.0, 2.0], Surface::Unknown);
+        floor.paint([-2.0, -2.0], [-1.5, 2.0], Surface::Floor(0.0));
+        floor.ramp([-1.5, -0.5], [0.5, 0.5], [0.0, 0.2]);
+        floor.paint([0.5, -0.5], [1.5, 0.5], Surface::Floor(0.2));
+        floor.stand.height_m = 0.15;
+        floor.stand.gradient = [0.1, 0.0];
+        floor
+    }
+
+    #[test]
+    fn the_side_of_a_slope_is_an_edge_where_the_robot_was_near_and_so_is_that_of_what_it_leads_up_to()
+     {
+        let terrain = ramp().after("platform_edges");
+        let is_edge = |x_m: f64, y_m: f64| terrain.edge[cell(&terrain, x_m, y_m)];
+        assert!(is_edge(0.225, 0.525) && is_edge(-0.225, -0.525));
+        assert!(!is_edge(-1.025, 0.525), "what lies there may come in sight");
+        assert!(
+            is_edge(1.025, 0.525) && is_edge(1.525, 0.025),
+            "a level's end"
+        );
+        assert!(!is_edge(0.225, 0.025) && !is_edge(1.025, 0.025));
+        assert!(!is_edge(-1.775, 0.025), "the floor is not raised");
+    }
+
+    #[test]
+    fn ground_of_which_the_height_is_unsure_is_part_of_the_level() {
+        let mut floor = platform();
+        floor.goal_m = Some(0.0);
+        floor.paint([0.3, -0.5], [0.5, 0.5], Surface::Floor(0.23));
+        let is_edge = |floor: &Floor| {
+            let terrain = floor.after("platform_edges");
+            terrain.edge[cell(&terrain, 0.525, 0.025)]
+        };
+        assert!(!is_edge(&floor), "a level of its own");
+        floor.doubt([0.3, -0.5], [0.5, 0.5], 0.02);
+        assert!(is_edge(&floor));
     }
 }

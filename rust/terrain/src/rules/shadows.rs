@@ -100,5 +100,8 @@ mod tests {
         let edge = |x_m: f64| terrain.edge[cell(&terrain, x_m, 0.025)];
         assert!([0.275, 0.325, 0.475, 0.525].into_iter().all(edge));
         assert!(![-0.175, -0.325, -0.525].into_iter().any(edge));
+        floor.doubt([0.5, -2.0], [2.0, 2.0], 0.02);
+        let terrain = floor.after("shadows");
+        assert!(!terrain.any_edge, "3 cm may be noise");
     }
 }
