@@ -60,6 +60,8 @@ pub struct FloorView {
     /// How many frames saw each cell as floor, from where the model is sure of it (saturating); judged by the score, of use to
     /// planners.
     pub sightings: Grid<u16>,
+    /// How sure each cell's height is, as a standard deviation, m; 0 where the model does not say: then it counts as it is.
+    pub sigmas_m: Grid<f32>,
     /// How much each cell's floor rises per metre along the map's axes: nothing where it is level.
     pub gradients: Grid<[f32; 2]>,
     /// Floor that rises by less per metre is level ground seen a little wrong.
@@ -78,6 +80,7 @@ impl FloorView {
             lattice,
             cells,
             sightings: Grid::filled(cols, rows, sightings),
+            sigmas_m: Grid::filled(cols, rows, 0.0),
             gradients: Grid::filled(cols, rows, [0.0; 2]),
             least_gradient: 0.0,
             head: Grid::filled(cols, rows, HeadRoom::Free),
@@ -94,6 +97,7 @@ impl FloorView {
     pub(crate) fn shift(&mut self, cols: i32, rows: i32, lattice: Lattice) {
         self.cells.shift(cols, rows, &Surface::Unknown);
         self.sightings.shift(cols, rows, &0);
+        self.sigmas_m.shift(cols, rows, &0.0);
         self.gradients.shift(cols, rows, &[0.0; 2]);
         self.head.shift(cols, rows, &HeadRoom::Free);
         self.lattice = lattice;

@@ -216,3 +216,36 @@ fn a_pose_that_is_no_number_changes_nothing() {
     assert_eq!(map.view(), &before);
     assert_eq!(planes.points_in_robot_m.len(), WIDTH * HEIGHT);
 }
+
+#[test]
+fn heights_are_said_to_be_as_sure_as_they_are_and_noise_from_afar_is_no_obstacle() {
+    let mut luck = Luck(5);
+    let mut map = map(ElevationConfig {
+        sigma_per_metre: 0.03,
+        ..ElevationConfig::default()
+    });
+    let mut before = f32::INFINITY;
+    for _ in 0..5 {
+        let planes = terrain::look(
+            DEPTH_CAMERA,
+            |_, _| 0.0,
+            camera(0.6, 0.35, 0.0),
+            0.03,
+            &mut luck,
+        );
+        assert!(map.insert(&planes, &here()).unwrap().used);
+        let view = map.view();
+        let cell = |x_m: f64| view.lattice.cell_at(x_m, 0.02);
+        let [near, far] = [0.9, 1.7].map(|x_m| *view.sigmas_m.get(cell(x_m)).unwrap());
+        assert!(
+            0.0 < near && near < far && far < before,
+            "{near} {far} {before}"
+        );
+        let estimate = map.estimate(cell(1.7)).unwrap();
+        assert!((estimate.variance_m2.sqrt() - far).abs() < 1e-6);
+        before = far;
+        let obstacle = |cell: Cell| matches!(view.cell(cell), Surface::Obstacle(_));
+        let obstacles = view.cells.area().cells().filter(|&cell| obstacle(cell));
+        assert_eq!(obstacles.count(), 0);
+    }
+}

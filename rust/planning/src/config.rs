@@ -58,6 +58,9 @@ settings! {
         escape_range: f64 = 0.3, "m", LENGTH;
         /// Largest difference in height between neighbouring cells that is walked over.
         max_step: f64 = 0.01, "m", LENGTH;
+        /// Where the world model says how sure its heights are, a difference counts as a step from so many standard deviations of both
+        /// heights above what is walked over.
+        step_sigmas: f64 = 2.0, "1", within(0.0, 100.0);
         /// Largest difference in height between neighbouring cells on and beside a slope that is walked over: the camera may have made
         /// level strips of the slope before it told it from them.
         slope_step: f64 = 0.02, "m", LENGTH;
@@ -101,6 +104,7 @@ impl AStarConfig {
             lone_cells: self.speck_cells,
             step_sightings: self.step_sightings,
             max_step: self.max_step,
+            step_sigmas: self.step_sigmas,
             slope_step: self.slope_step,
             max_slope: self.max_slope,
             blind: self.blind,

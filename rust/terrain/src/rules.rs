@@ -46,6 +46,11 @@ pub const RULES: [Rule; 21] = [
         name: RuleName::Obstacles,
         apply: |rules, terrain, sight| obstacles::apply(terrain, sight, &rules.config.obstacles),
     },
+    // Decides which cells are tilted, and which may be level strips of a slope.
+    Rule {
+        name: RuleName::Slopes,
+        apply: |rules, terrain, sight| slopes::apply(terrain, sight, &rules.config.slopes),
+    },
     // Decides that what looks like a higher level from afar is unknown until it was near.
     Rule {
         name: RuleName::FarLevels,
@@ -69,11 +74,6 @@ pub const RULES: [Rule; 21] = [
         apply: |rules, terrain, sight| {
             (rules.laid_stairs).apply(terrain, sight, &rules.config.laid_stairs);
         },
-    },
-    // Decides which cells are tilted, and which may be level strips of a slope.
-    Rule {
-        name: RuleName::Slopes,
-        apply: |rules, terrain, sight| slopes::apply(terrain, sight, &rules.config.slopes),
     },
     // Decides that a single unseen cell has the height of the ground on both sides of it.
     Rule {

@@ -65,6 +65,8 @@ pub struct CellSettings {
     pub step_sightings: u16,
     /// Largest difference in height between neighbouring cells that is walked over, m.
     pub max_step: f64,
+    /// A difference in height is a step where it is more than that by so many standard deviations of both heights.
+    pub step_sigmas: f64,
     /// What a level strip of a slope may be off it, m.
     pub slope_step: f64,
     /// Steepest slope that is walked on: rise per metre.

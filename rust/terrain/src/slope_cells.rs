@@ -27,6 +27,20 @@ impl SlopeCells {
         step_m
     }
 
+    /// Whether a cell is part of a slope that may be walked on.
+    pub(crate) fn is_slope(&self, index: usize) -> bool {
+        let is_tilted = self
+            .gradients
+            .get(index)
+            .is_some_and(|gradient| *gradient != [0.0; 2]);
+        is_tilted && self.too_steep_at(index).is_none()
+    }
+
+    /// Whether a cell is part of a slope that may be walked on, or lies beside one.
+    pub(crate) fn is_near(&self, index: usize) -> bool {
+        self.near.get(index) == Some(&true)
+    }
+
     /// The cells of slopes that are too steep to be walked on.
     pub(crate) fn too_steep(&self) -> impl Iterator<Item = usize> {
         (0..self.gradients.len()).filter(|&index| self.too_steep_at(index).is_some())

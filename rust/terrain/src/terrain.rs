@@ -45,6 +45,8 @@ pub struct Terrain {
     pub nearest_m: Vec<f32>,
     /// Height of each cell, m; not a number where none is known.
     pub height_m: Vec<f32>,
+    /// Standard deviation of each height, m; 0 where it counts as it is.
+    pub(crate) sigma_m: Vec<f32>,
     /// Cells beside a difference that is no floor, to either side of it, or between two such levels: no foot is set across one but by a
     /// climb.
     pub edge: Vec<bool>,
@@ -113,6 +115,12 @@ impl Terrain {
     /// Whether a cell lies at the end of a level with nothing known behind it, or at an edge that is no stair's.
     pub fn is_open_edge(&self, index: usize) -> bool {
         self.open[index] && !self.stairs.is_near(index)
+    }
+
+    /// What the difference between the heights of two cells is off by noise, m, as far as noise is allowed for.
+    pub(crate) fn noise_m(&self, one: usize, other: usize) -> f32 {
+        let [a, b] = [one, other].map(|index| self.sigma_m.get(index).copied().unwrap_or(0.0));
+        self.settings.step_sigmas as f32 * (a * a + b * b).sqrt()
     }
 
     /// Height of a cell, m, where one is known.

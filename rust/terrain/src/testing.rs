@@ -47,6 +47,7 @@ pub(crate) fn settings() -> CellSettings {
         lone_cells: 2,
         step_sightings: 3,
         max_step: 0.01,
+        step_sigmas: 2.0,
         slope_step: 0.02,
         max_slope: 0.2,
         blind: 0.2,
@@ -122,6 +123,24 @@ impl Floor {
         for cell in self.cells_in(min, max) {
             *self.view.gradients.get_mut(cell).unwrap() = [rise_per_m, 0.0];
         }
+    }
+
+    /// Says how sure the heights are of all cells whose centre lies in the rectangle.
+    pub(crate) fn doubt(&mut self, min: [f64; 2], max: [f64; 2], sigma_m: f32) {
+        for cell in self.cells_in(min, max) {
+            *self.view.sigmas_m.get_mut(cell).unwrap() = sigma_m;
+        }
+    }
+
+    /// Makes a slope of all cells whose centre lies in the rectangle: along x from one height to another.
+    pub(crate) fn ramp(&mut self, min: [f64; 2], max: [f64; 2], [from_m, to_m]: [f64; 2]) {
+        let rise_per_m = (to_m - from_m) / (max[0] - min[0]);
+        for cell in self.cells_in(min, max) {
+            let [x, _] = self.view.lattice.center_of(cell);
+            let height_m = from_m + rise_per_m * (x - min[0]);
+            *self.view.cells.get_mut(cell).unwrap() = Surface::Floor(height_m as f32);
+        }
+        self.tilt(min, max, rise_per_m as f32);
     }
 
     /// What the rules make of it up to and with the one of this name.

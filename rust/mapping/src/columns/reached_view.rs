@@ -8,7 +8,7 @@ use crate::elevation::edges::{EdgeRule, upper_surface};
 use crate::elevation::level::LevelCells;
 use crate::elevation::sensed::SensedFrame;
 use crate::elevation::slope::SlopeFinder;
-use crate::elevation::{ElevationConfig, cell_of};
+use crate::elevation::{ElevationConfig, HeightEstimate, cell_of};
 use crate::surface::{Underfoot, Window};
 use crate::{FloorView, Surface};
 
@@ -100,10 +100,10 @@ impl ReachedView {
         self.reached
             .spread((start, robot_m[2] as f32), self.rule.joined_m, nearest);
         for index in 0..self.heights_m.len() {
-            let unknown = (f32::NAN, 0, f32::INFINITY);
             let way = way(things(index), self.reached.height_m(index));
-            let (height_m, frames, room_m) = way.unwrap_or(unknown);
-            (self.heights_m[index], self.ways[index]) = (height_m, (frames, room_m));
+            let (known, room_m) = way.unwrap_or((Span::UNKNOWN, f32::INFINITY));
+            (self.heights_m[index], self.ways[index]) = (known.high_m, (known.frames, room_m));
+            self.view.sigmas_m.values_mut()[index] = known.sigma_m;
         }
         self.show();
     }
@@ -114,12 +114,11 @@ impl ReachedView {
             let stood = self.underfoot.height_at(index);
             return (stood.map_or(Surface::Unknown, Surface::Floor), 0);
         }
-        let (height_m, lowest_m) = if is_level {
-            (own_m, own_m)
+        let (height_m, is_high) = if is_level {
+            (own_m, false)
         } else {
-            self.heights_around(index)
+            self.height_at_edge(index)
         };
-        let is_high = height_m - lowest_m > self.elevation.rise as f32;
         // What no frame saw from above has no surface that is known.
         if is_high || room_m < self.rule.headroom_m || frames == 0 {
             (Surface::Obstacle(height_m), 0)
@@ -128,8 +127,8 @@ impl ReachedView {
         }
     }
 
-    /// Height of a cell, of the upper surface where an edge runs through it, and of the lowest one beside it, m.
-    fn heights_around(&self, index: usize) -> (f32, f32) {
+    /// Height of a cell, of the upper surface where an edge runs through it, m, and whether it is an obstacle beside another one.
+    fn height_at_edge(&self, index: usize) -> (f32, bool) {
         let (own_m, size) = (self.heights_m[index], self.view.size());
         let cell = cell_of(index, size);
         let away = |[cols, rows]: [i32; 2]| {
@@ -139,10 +138,18 @@ impl ReachedView {
         };
         let upper_m = (self.rule.edge).and_then(|edge| upper_surface(own_m, away, edge));
         let height_m = upper_m.unwrap_or(own_m);
-        let beside = runs(CellArea::of(cell).grown(1), size).flatten();
-        // What is no number is not lower.
-        let lowest_m = beside.fold(height_m, |low_m, other| low_m.min(self.heights_m[other]));
-        (height_m, lowest_m)
+        let estimate = |index: usize, height_m: f32| {
+            let sigma_m = self.view.sigmas_m.values()[index];
+            HeightEstimate {
+                height_m,
+                variance_m2: sigma_m * sigma_m,
+            }
+        };
+        let (own, rule) = (estimate(index, height_m), self.elevation.rise_rule());
+        let mut beside = runs(CellArea::of(cell).grown(1), size).flatten();
+        let is_high =
+            beside.any(|other| rule.is_above(own, estimate(other, self.heights_m[other])));
+        (height_m, is_high)
     }
 
     /// Shows surfaces and gradients of the heights.
@@ -160,11 +167,14 @@ impl ReachedView {
         }
         self.level = level_cells;
         let rule = (self.elevation.cell as f32, self.elevation.slope_rule());
+        let sure_m = self.elevation.tuning.slopes.sure as f32;
         let (heights_m, view) = (&self.heights_m, &mut self.view);
-        let height = |index: usize| Some(heights_m[index]).filter(|height_m| !height_m.is_nan());
+        let (sigmas_m, gradients) = (view.sigmas_m.values(), view.gradients.values_mut());
+        let known = |index: usize| !heights_m[index].is_nan() && sigmas_m[index] <= sure_m;
+        let height = |index: usize| known(index).then(|| heights_m[index]);
         self.slopes
             .find((size, area), height, rule, |index, gradient| {
-                view.gradients.values_mut()[index] = gradient;
+                gradients[index] = gradient;
             });
     }
 }
@@ -175,13 +185,13 @@ fn nearest_m<T: Copy + Into<Span>>(things: &[T], from_m: f32) -> Option<f32> {
     heights_m.min_by(|a, b| (a - from_m).abs().total_cmp(&(b - from_m).abs()))
 }
 
-/// Height and frames of the surface that is nearest to a height by which the robot comes, and the room above it, m.
-fn way<T: Copy + Into<Span>>(things: &[T], by_m: f32) -> Option<(f32, u16, f32)> {
+/// The thing whose surface is nearest to a height by which the robot comes, and the room above it, m.
+fn way<T: Copy + Into<Span>>(things: &[T], by_m: f32) -> Option<(Span, f32)> {
     let off = |at: usize| (things[at].into().high_m - by_m).abs();
     let nearest = (0..things.len()).min_by(|&a, &b| off(a).total_cmp(&off(b)))?;
-    let Span { high_m, frames, .. } = things[nearest].into();
+    let known: Span = things[nearest].into();
     let above = things
         .get(nearest + 1)
-        .map(|&one| one.into().low_m - high_m);
-    Some((high_m, frames, above.unwrap_or(f32::INFINITY)))
+        .map(|&one| one.into().low_m - known.high_m);
+    Some((known, above.unwrap_or(f32::INFINITY)))
 }

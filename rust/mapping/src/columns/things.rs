@@ -9,6 +9,18 @@ pub struct Span {
     pub high_m: f32,
     /// Frames that saw it.
     pub frames: u16,
+    /// Standard deviation of its highest, m.
+    pub sigma_m: f32,
+}
+
+impl Span {
+    /// Nothing is known.
+    pub(crate) const UNKNOWN: Self = Self {
+        low_m: f32::NAN,
+        high_m: f32::NAN,
+        frames: 0,
+        sigma_m: 0.0,
+    };
 }
 
 /// Things one above the other, cell by cell. Reused from frame to frame.
@@ -48,7 +60,9 @@ impl Columns {
             while let Some((_, span)) = spans.next_if(|(at, _)| *at == cell) {
                 match self.things[start..].last_mut() {
                     Some(last) if span.low_m - last.high_m < room_m => {
-                        last.high_m = last.high_m.max(span.high_m);
+                        if span.high_m > last.high_m {
+                            (last.high_m, last.sigma_m) = (span.high_m, span.sigma_m);
+                        }
                         last.frames = last.frames.max(span.frames);
                     }
                     _ => self.things.push(*span),

@@ -6,6 +6,7 @@ use settings::{NOT_NEGATIVE, POSITIVE, above_to, at_least, choices, settings, wi
 
 use super::RangeNoise;
 use super::edges::EdgeRule;
+use super::rise::RiseRule;
 use super::slope::{MOST_REACH, SlopeRule};
 use crate::{FogConfig, surface::MatchingTuning};
 
@@ -43,7 +44,8 @@ settings! {
         sigma_per_metre: f64 = 0.01, "1", NOT_NEGATIVE, "004, Fig. 36.10";
         /// A height further from the cell's than so many standard deviations of both is that of another surface.
         gate: f64 = 3.0, "1", POSITIVE;
-        /// A cell that lies more than this above one beside it is an obstacle; what is lower can be climbed.
+        /// A cell that lies more than this above one beside it, and further than the `gate` allows for their noise, is an obstacle; what is
+        /// lower can be climbed.
         rise: f64 = 0.05, "m", POSITIVE, "003, Table I: steps up to 50 mm";
         /// Points that are further away than this are left out.
         max_range: f64 = 4.0, "m" of camera, POSITIVE;
@@ -121,6 +123,14 @@ impl ElevationConfig {
             least_m: self.tuning.edge as f32,
             uneven: self.tuning.uneven as f32,
             reach: 3,
+        }
+    }
+
+    /// What is an obstacle beside what.
+    pub(crate) const fn rise_rule(&self) -> RiseRule {
+        RiseRule {
+            most_m: self.rise as f32,
+            gate: self.gate as f32,
         }
     }
 

@@ -12,12 +12,15 @@ pub(super) struct Filled {
     pub height_m: f32,
     /// Frames that saw both of the cells that it lies between.
     pub frames: u16,
+    /// Variance of the height, m².
+    pub variance_m2: f32,
 }
 
 impl Filled {
     pub(super) const NOT: Self = Self {
         height_m: f32::NAN,
         frames: 0,
+        variance_m2: f32::INFINITY,
     };
 }
 
@@ -65,6 +68,8 @@ pub(super) fn fill(
             height_m: low.estimate.height_m
                 + share * (high.estimate.height_m - low.estimate.height_m),
             frames: low.frames.min(high.frames),
+            variance_m2: (1.0 - share) * (1.0 - share) * low.estimate.variance_m2
+                + share * share * high.estimate.variance_m2,
         };
         one_surface.then_some((steps as f32 * length, filled))
     };

@@ -19,6 +19,7 @@ mod filling;
 mod gathered;
 pub(crate) mod level;
 mod pyramid;
+pub(crate) mod rise;
 pub(crate) mod sensed;
 mod showing;
 mod sight_lines;

@@ -3,18 +3,23 @@
 use geometry::{CellArea, runs};
 
 use super::edges::upper_surface;
-use super::{Elevation, cell_of};
+use super::{Elevation, HeightEstimate, cell_of};
 use crate::Surface;
 
 impl Elevation {
-    /// Height of a cell and how many frames saw it: measured, filled, or that of a coarser grid.
-    fn height(&self, index: usize) -> Option<(f32, u16)> {
+    /// Height of a cell and how sure it is, and how many frames saw it: measured, filled, or that of a coarser grid.
+    fn height(&self, index: usize) -> Option<(HeightEstimate, u16)> {
         if let Some(known) = self.cells.values()[index].known() {
-            return Some((known.estimate.height_m, known.frames));
+            return Some((known.estimate, known.frames));
         }
         let filled = self.filled.values()[index];
         if !filled.height_m.is_nan() {
-            return Some((filled.height_m, filled.frames));
+            let (height_m, variance_m2) = (filled.height_m, filled.variance_m2);
+            let estimate = HeightEstimate {
+                height_m,
+                variance_m2,
+            };
+            return Some((estimate, filled.frames));
         }
         if self.pyramid.is_empty() {
             return None;
@@ -24,7 +29,7 @@ impl Elevation {
             .lattice()
             .center_of(cell_of(index, self.view.size()));
         let coarse = self.pyramid.at(centre_m)?;
-        Some((coarse.estimate.height_m, coarse.frames))
+        Some((coarse.estimate, coarse.frames))
     }
 
     /// What a cell counts as: an obstacle where it lies too far above one beside it.
@@ -44,13 +49,17 @@ impl Elevation {
             height_m.filter(|height_m| !height_m.is_nan())
         };
         let height_m = upper_surface(own_m, away, self.config.edge_rule()).unwrap_or(own_m);
+        let estimate = |index: usize, height_m: f32| {
+            let sigma_m = self.view.sigmas_m.values()[index];
+            HeightEstimate {
+                height_m,
+                variance_m2: sigma_m * sigma_m,
+            }
+        };
         let beside = CellArea::of(cell_of(index, size)).grown(1);
-        let heights_m = runs(beside, size)
-            .flatten()
-            .map(|other| self.heights_m[other]);
-        // What is no number is not lower.
-        let lowest_m = heights_m.fold(height_m, f32::min);
-        if height_m - lowest_m > self.config.rise as f32 {
+        let (own, rule) = (estimate(index, height_m), self.config.rise_rule());
+        let mut beside = runs(beside, size).flatten();
+        if beside.any(|other| rule.is_above(own, estimate(other, self.heights_m[other]))) {
             (Surface::Obstacle(height_m), 0)
         } else {
             (Surface::Floor(height_m), self.seen[index])
@@ -64,8 +73,13 @@ impl Elevation {
         self.seen.resize(size[0] * size[1], 0);
         let reach = (1 + self.config.edge_rule().reach).max(2);
         for index in runs(area.grown(reach), size).flatten() {
-            let known = self.height(index).unwrap_or((f32::NAN, 0));
-            (self.heights_m[index], self.seen[index]) = known;
+            let known = self.height(index);
+            let (height_m, sigma_m, frames) = known
+                .map_or((f32::NAN, 0.0, 0), |(known, frames)| {
+                    (known.height_m, known.variance_m2.sqrt(), frames)
+                });
+            (self.heights_m[index], self.seen[index]) = (height_m, frames);
+            self.view.sigmas_m.values_mut()[index] = sigma_m;
         }
         let rule = (Some(self.config.edge_rule()), self.config.rise as f32);
         let mut level_cells = std::mem::take(&mut self.level);

@@ -16,6 +16,8 @@ struct ColumnPiece {
     /// As large as it looks from above, m²; 0 where nobody can stand on it.
     ground_m2: f32,
     frames: u16,
+    /// Standard deviation of where it is, m.
+    sigma_m: f32,
 }
 
 /// Pieces of the surface by columns. Reused from frame to frame.
@@ -64,6 +66,7 @@ impl Pieces {
                 0.0
             },
             frames: piece.frames,
+            sigma_m: piece.sigma_m,
         });
     }
 
@@ -107,7 +110,8 @@ fn span_of(thing: &[ColumnPiece], high_m: f32, apart_m: f32) -> Span {
     Span {
         low_m,
         high_m: if area > 0.0 { sum / area } else { high_m },
-        frames: top.map(|one| one.frames).max().unwrap_or(0),
+        frames: top.clone().map(|one| one.frames).max().unwrap_or(0),
+        sigma_m: top.map(|one| one.sigma_m).fold(0.0, f32::max),
     }
 }
 
@@ -131,6 +135,7 @@ mod tests {
                 &SurfacePiece {
                     corners_m,
                     frames: 3,
+                    sigma_m: 0.004,
                 },
                 &RULE,
             );
@@ -164,6 +169,7 @@ mod tests {
             &SurfacePiece {
                 corners_m,
                 frames: 1,
+                sigma_m: 0.004,
             },
             &RULE,
         );

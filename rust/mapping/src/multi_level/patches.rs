@@ -40,6 +40,7 @@ impl From<Patch> for Span {
             low_m: patch.low_m,
             high_m: patch.estimate().height_m,
             frames: patch.frames(),
+            sigma_m: patch.estimate().variance_m2.sqrt(),
         }
     }
 }

@@ -167,10 +167,13 @@ impl Sample {
         } else {
             (mean_m - half_m, mean_m + half_m)
         };
+        // As sure as one point of each frame: what makes a frame's points wrong makes them wrong alike.
+        let frames = self.frames.max(u16::from(self.fresh));
         Some(Span {
             low_m: bottom_m + low_m,
             high_m: bottom_m + high_m,
-            frames: self.frames.max(u16::from(self.fresh)),
+            frames,
+            sigma_m: (self.moments.noise_m2() / f32::from(frames.max(1))).sqrt(),
         })
     }
 }

@@ -22,6 +22,8 @@ pub struct SurfacePiece {
     pub corners_m: [[f32; 3]; 3],
     /// Frames that saw the voxel beside it that was seen least.
     pub frames: u16,
+    /// Standard deviation of the distance to that of these voxels which is known least well, m.
+    pub sigma_m: f32,
 }
 
 /// A corner of the surface: the edge between two voxels on which it lies.
@@ -83,6 +85,8 @@ impl FusedVolume {
                 continue;
             }
             let frames = corners.iter().map(|one| one.frames).min().unwrap_or(0);
+            let weights = corners.iter().map(|one| one.weight);
+            let sigma_m = weights.fold(f32::INFINITY, f32::min).recip().sqrt();
             let lowest: GridKey = std::array::from_fn(|axis| key[axis] * EDGE + place[axis]);
             let crossing = |edge: u8| {
                 let (corner, axis) = EDGES[edge as usize];
@@ -99,7 +103,12 @@ impl FusedVolume {
             for triangle in &cases[inside] {
                 let found = triangle.map(crossing);
                 let corners_m = found.map(|(_, at_m)| at_m);
-                take(found.map(|one| one.0), SurfacePiece { corners_m, frames });
+                let piece = SurfacePiece {
+                    corners_m,
+                    frames,
+                    sigma_m,
+                };
+                take(found.map(|one| one.0), piece);
             }
         }
     }

@@ -4,7 +4,7 @@ use mapping::FloorView;
 use stairs::Staircase;
 use terrain::{StandingAt, Terrain};
 
-use crate::climb_links::Fit;
+use crate::climb_links::{ClimbLinks, Fit};
 use crate::path::ends::{PathEnds, end_of, run};
 use crate::refusal::{explain, first_limit};
 use crate::search::Route;
@@ -132,8 +132,8 @@ impl AStar {
             return Err(no_way);
         }
         let (route, end) = if let Some(route) = known {
-            let end = end_of(&route, terrain, links, &ends);
-            (route, end)
+            let look = || (self.viewpoints).route(search, terrain, links, &ends, start);
+            or_look(route, (terrain, links), &ends, look)
         } else {
             let levels = terrain.any_edge || ends.on_another_level();
             let route = levels.then(|| self.viewpoints.route(search, terrain, links, &ends, start));
@@ -144,6 +144,23 @@ impl AStar {
             (route.flatten().ok_or_else(no_way)?, PathEnd::Look)
         };
         Ok((route, Fit::Holds, end))
+    }
+}
+
+/// A known route, and its end. Who knows but a way out of the window looks first where a level ends, if that is the cheaper way to the goal: what
+/// goes on there may not have been in sight, and the window's border is reached the other way round.
+fn or_look(
+    known: Route,
+    (terrain, links): (&Terrain, &ClimbLinks),
+    ends: &PathEnds<'_>,
+    look: impl FnOnce() -> Option<Route>,
+) -> (Route, PathEnd) {
+    let end = end_of(&known, terrain, links, ends);
+    let leaves = end == PathEnd::Border && terrain.any_edge;
+    let look = leaves.then(look).flatten();
+    match look.filter(|look| look.cost < known.cost) {
+        Some(look) => (look, PathEnd::Look),
+        None => (known, end),
     }
 }
 

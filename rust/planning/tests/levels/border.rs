@@ -19,6 +19,28 @@ fn a_way_up_that_may_go_on_is_not_given_up_for_known_ground_that_leads_away() {
 }
 
 #[test]
+fn the_end_of_what_is_seen_of_a_level_is_looked_at_rather_than_gone_back_from() {
+    let mut course = Course::floor();
+    course.forget([-2.0, -2.0], [2.0, 2.0]);
+    course.paint([-2.0, -2.0], [2.0, -1.2], Surface::Floor(0.0));
+    // A deck that goes on as far as the window behind the robot, and that was seen up to a metre ahead.
+    course.paint([-2.0, -0.5], [1.0, 0.5], Surface::Floor(0.3));
+    let start = [0.0, 0.0, 0.3];
+    let ahead = plan(&mut planner(), &course, start, 0.0, &goal_at(4.0, 0.0, 0.3));
+    let ahead = ahead.way.unwrap();
+    assert_eq!(ahead.end, PathEnd::Look);
+    assert!(ahead.points_m.last().unwrap()[0] > 0.5);
+    let behind = plan(
+        &mut planner(),
+        &course,
+        start,
+        0.0,
+        &goal_at(-4.0, 0.0, 0.3),
+    );
+    assert_eq!(behind.way.unwrap().end, PathEnd::Border);
+}
+
+#[test]
 fn a_shorter_way_is_taken_though_the_window_has_moved_on_and_its_border_is_further_away() {
     let mut planner = planner();
     let mut course = Course::floor();

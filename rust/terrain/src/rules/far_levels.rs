@@ -7,7 +7,7 @@ use geometry::{Cell, Lattice, in_step, same_level};
 use mapping::{FloorView, Surface};
 use settings::{settings, within};
 
-use crate::{Sight, Terrain};
+use crate::{Sight, Terrain, cells::beside};
 
 settings! {
     /// What is not believed from afar.
@@ -27,6 +27,9 @@ pub(super) struct FarLevels {
     ground_m: Option<f64>,
     /// How far aside of the robot each column is, m.
     aside_m: Vec<f64>,
+    /// Cells that a slope leads up to without a step; empty where there is no slope.
+    joined: Vec<bool>,
+    next: Vec<usize>,
     /// Columns that lie side by side in `before_m`, too, and where their first one lies.
     columns: Vec<(Range<usize>, usize)>,
 }
@@ -40,7 +43,8 @@ impl FarLevels {
     ) {
         self.look(&mut terrain.nearest_m, sight.view, sight.stand.at_m);
         let ground_m = self.steady_m(sight.stand.height_m, terrain.needs.limits.floor_m);
-        doubt(terrain, sight, ground_m, config.low);
+        self.find_joined(terrain, sight.view);
+        doubt(terrain, sight, (ground_m, config.low), &self.joined);
     }
 
     /// The height that the robot stands at, m, but the one before while it differs by no more than floor does: who stands still must
@@ -48,6 +52,35 @@ impl FarLevels {
     fn steady_m(&mut self, height_m: f64, floor_m: f64) -> f64 {
         let before_m = (self.ground_m).filter(|&before_m| same_level(before_m, height_m, floor_m));
         *self.ground_m.insert(before_m.unwrap_or(height_m))
+    }
+
+    /// Finds the floor that goes on from slopes without a step: what they lead up to is no riser.
+    fn find_joined(&mut self, terrain: &Terrain, view: &FloorView) {
+        let (slopes, floor_m) = (&terrain.slopes, terrain.needs.limits.floor_m as f32);
+        self.joined.clear();
+        if slopes.near.is_empty() {
+            return;
+        }
+        let surfaces = view.cells.values();
+        let is_slope = |index: &usize| slopes.is_slope(*index);
+        self.joined
+            .extend((0..surfaces.len()).map(|index| is_slope(&index)));
+        self.next.clear();
+        self.next.extend((0..surfaces.len()).filter(is_slope));
+        while let Some(here) = self.next.pop() {
+            let Surface::Floor(from_m) = surfaces[here] else {
+                continue;
+            };
+            for there in beside(here, terrain.cols, surfaces.len()) {
+                if let Surface::Floor(to_m) = surfaces[there]
+                    && !self.joined[there]
+                    && slopes.step_m(here, there, to_m - from_m) <= floor_m
+                {
+                    self.joined[there] = true;
+                    self.next.push(there);
+                }
+            }
+        }
     }
 
     /// Takes in where the robot is; moves with the view's window.
@@ -96,8 +129,8 @@ impl FarLevels {
 }
 
 /// Makes unknown what lies on a higher level and was never near, unless a recognised stair or a slope says what it is. What ends lower than `low_m` above
-/// the ground may be a riser.
-fn doubt(terrain: &mut Terrain, sight: &Sight<'_>, ground_m: f64, low_m: f64) {
+/// the ground may be a riser. `joined` is what slopes lead up to.
+fn doubt(terrain: &mut Terrain, sight: &Sight<'_>, (ground_m, low_m): (f64, f64), joined: &[bool]) {
     let range_m = terrain.settings.judge_range;
     let floor_m = terrain.needs.limits.floor_m;
     let surfaces = sight.view.cells.values().iter();
@@ -111,7 +144,8 @@ fn doubt(terrain: &mut Terrain, sight: &Sight<'_>, ground_m: f64, low_m: f64) {
             continue;
         }
         let sloped = sight.view.gradients.values()[index] != [0.0; 2];
-        if !(sloped || terrain.stairs.covers(index)) {
+        let is_joined = joined.get(index) == Some(&true);
+        if !(sloped || is_joined || terrain.stairs.covers(index)) {
             terrain.blocked[index] = false;
             terrain.unknown[index] = true;
         }
@@ -124,7 +158,7 @@ mod tests {
     use mapping::{FloorView, Surface};
 
     use crate::Rules;
-    use crate::testing::{Floor, terrain};
+    use crate::testing::{Floor, cell, terrain};
 
     fn view(origin_m: f64, surface: Surface) -> FloorView {
         FloorView::new(
@@ -165,6 +199,25 @@ mod tests {
         assert!(!is_doubted(Surface::Floor(-0.09), &[0.0], 1.25));
         assert!(!is_doubted(Surface::Obstacle(0.3), &[0.0], 1.25));
         assert!(is_doubted(Surface::Obstacle(0.1), &[0.0], 1.25));
+    }
+
+    #[test]
+    fn what_a_slope_leads_up_to_is_believed_from_afar_and_what_lies_behind_a_step_beside_it_is_not()
+    {
+        let mut floor = Floor::new();
+        floor.ramp([0.3, -0.5], [0.8, 0.5], [0.0, 0.08]);
+        floor.paint([0.8, -0.5], [1.9, 0.5], Surface::Floor(0.08));
+        floor.paint([0.3, 0.6], [1.9, 1.5], Surface::Floor(0.04));
+        let terrain = floor.after("far_levels");
+        let doubted = |x_m: f64, y_m: f64| terrain.unknown[cell(&terrain, x_m, y_m)];
+        assert!(!doubted(0.825, 0.025) && !doubted(1.825, 0.025));
+        assert!(doubted(1.225, 0.925), "a step of 4 cm leads up to it");
+        floor.paint([1.0, -0.5], [1.2, 0.5], Surface::Floor(0.12));
+        let terrain = floor.after("far_levels");
+        assert!(
+            terrain.unknown[cell(&terrain, 1.825, 0.025)],
+            "behind a step"
+        );
     }
 
     #[test]

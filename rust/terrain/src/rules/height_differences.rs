@@ -52,7 +52,7 @@ fn mark(terrain: &mut Terrain, index: usize, floor: f32) {
             continue;
         }
         let rise = terrain.slopes.step_m(index, next, there - here);
-        if rise > floor {
+        if rise > floor + terrain.noise_m(index, next) {
             terrain.mark_step(index, rise);
             terrain.mark_step(next, rise);
         }
@@ -62,8 +62,32 @@ fn mark(terrain: &mut Terrain, index: usize, floor: f32) {
 #[cfg(test)]
 mod tests {
     use mapping::Surface;
+    use proptest::prelude::*;
 
     use crate::testing::{Floor, cell};
+
+    proptest! {
+        #[test]
+        fn noise_of_heights_is_no_step_and_a_step_that_is_higher_than_their_noise_is_one(
+            sigma_m in 0.0..0.02f32, off in prop::collection::vec(-1.4..1.4f32, 7), higher_m in 0.001..0.1f32,
+        ) {
+            let mut floor = Floor::new();
+            floor.doubt([-2.0, -2.0], [2.0, 2.0], sigma_m);
+            let cells: Vec<geometry::Cell> = floor.view.cells.area().cells().collect();
+            for (at, &cell) in cells.iter().enumerate() {
+                let height = Surface::Floor(sigma_m * off[at % off.len()]);
+                *floor.view.cells.get_mut(cell).unwrap() = height;
+            }
+            prop_assert!(!floor.after("height_differences").any_edge);
+            // Two standard deviations of the difference, and what is floor.
+            let step_m = 0.01 + 2.0 * 2.0_f32.sqrt() * sigma_m + higher_m;
+            floor.paint([-2.0, -2.0], [0.5, 2.0], Surface::Floor(0.0));
+            floor.paint([0.5, -2.0], [2.0, 2.0], Surface::Floor(step_m));
+            let terrain = floor.after("height_differences");
+            prop_assert!(terrain.edge[cell(&terrain, 0.475, 0.025)]);
+            prop_assert!(!terrain.edge[cell(&terrain, 0.225, 0.025)]);
+        }
+    }
 
     #[test]
     fn a_step_has_an_edge_on_both_sides_that_is_open_where_it_may_be_climbed_and_a_slope_has_none()

@@ -8,6 +8,8 @@ pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>) {
     let least = terrain.settings.step_sightings;
     terrain.height_m.clear();
     let view = sight.view;
+    terrain.sigma_m.clear();
+    (terrain.sigma_m).extend_from_slice(view.sigmas_m.values());
     let cells = view.cells.values().iter().zip(view.sightings.values());
     let cells = cells.zip(&terrain.unknown);
     terrain

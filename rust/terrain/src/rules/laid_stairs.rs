@@ -58,9 +58,10 @@ impl LaidStairs {
                 seen_m
             };
         }
-        for (height, &tread) in heights_m.iter_mut().zip(treads_m.iter()) {
+        let heights = heights_m.iter_mut().zip(&mut terrain.sigma_m);
+        for ((height, sigma_m), &tread) in heights.zip(treads_m.iter()) {
             if !tread.is_nan() {
-                *height = tread;
+                (*height, *sigma_m) = (tread, 0.0);
             }
         }
     }

@@ -1,10 +1,11 @@
 //! Rule: where the level that the robot stands on is raised over something, what was not seen beside it is no ground: there it ends.
 
 use geometry::{Cell, same_level};
-use mapping::Surface;
+use mapping::{FloorView, Surface};
 use settings::{NOT_NEGATIVE, settings, within};
 
-use crate::{Sight, StandingAt, Terrain, cells::around};
+use crate::cells::{around, beside};
+use crate::{Sight, StandingAt, Terrain};
 
 settings! {
     /// Where the level that the robot stands on ends.
@@ -26,6 +27,10 @@ settings! {
 pub(super) struct PlatformEdges {
     ground: Vec<bool>,
     gaps: Vec<usize>,
+    /// Raised ground that goes on from it: over slopes, or as far as heights are unsure.
+    further: Vec<bool>,
+    next: Vec<usize>,
+    heights_m: Vec<f32>,
 }
 
 impl PlatformEdges {
@@ -51,14 +56,81 @@ impl PlatformEdges {
         let tolerance_m = config.level * terrain.settings.max_step;
         self.find_ground(terrain, sight, (tolerance_m, blind_m));
         self.close_gaps(terrain, stand, config.gap);
+        self.go_further(terrain, sight, config);
         let size = [terrain.cols, self.ground.len() / terrain.cols.max(1)];
         for (index, &ground) in self.ground.iter().enumerate() {
             let unseen = !ground && terrain.height_m[index].is_nan() && !terrain.blocked[index];
-            if unseen && around(index, 1, size).any(|next| self.ground[next]) {
+            let mut around = around(index, 1, size);
+            if unseen
+                && around.any(|next| {
+                    self.ground[next] || self.ends_at(next, index, (terrain, sight.view))
+                })
+            {
                 terrain.mark_edge(index);
                 terrain.open[index] = true;
             }
         }
+    }
+
+    /// Whether ground that goes on from the robot's level ends beside a cell without a height: where nothing was seen there, and of a slope only where
+    /// the robot was so near that it would have seen more of it.
+    fn ends_at(&self, ground: usize, cell: usize, (terrain, view): (&Terrain, &FloorView)) -> bool {
+        let is_further = self.further.get(ground) == Some(&true);
+        let was_near = || f64::from(terrain.nearest_m[cell]) <= terrain.settings.judge_range;
+        is_further
+            && view.cells.values()[cell] == Surface::Unknown
+            && (!terrain.slopes.is_near(ground) || was_near())
+    }
+
+    /// Finds the raised ground that goes on from the robot's level without a step, where it is sloped or its heights are unsure.
+    fn go_further(&mut self, terrain: &Terrain, sight: &Sight<'_>, config: &PlatformEdgesConfig) {
+        self.further.clear();
+        let is_unsure = || terrain.sigma_m.iter().any(|&sigma_m| sigma_m > 0.0);
+        if terrain.slopes.near.is_empty() && !is_unsure() {
+            return;
+        }
+        let least_m =
+            self.lowest_m(terrain, sight, config) + config.raised * terrain.settings.max_step;
+        let floor_m = terrain.needs.limits.floor_m as f32;
+        self.further.resize(self.ground.len(), false);
+        self.next.clear();
+        let ground = self.ground.iter().enumerate();
+        self.next
+            .extend(ground.filter_map(|(index, &ground)| ground.then_some(index)));
+        while let Some(here) = self.next.pop() {
+            for there in beside(here, terrain.cols, self.ground.len()) {
+                let [from_m, to_m] = [here, there].map(|index| terrain.height_m[index]);
+                let is_new = !self.ground[there] && !self.further[there];
+                let (noise_m, slopes) = (terrain.noise_m(here, there), &terrain.slopes);
+                let is_unsure = noise_m > 0.0 || slopes.is_near(here) || slopes.is_near(there);
+                let leads_on = is_unsure || self.further[here];
+                // What is no number is no ground.
+                let is_raised = f64::from(to_m) > least_m;
+                let joined = is_new && leads_on && is_raised && !terrain.blocked[there];
+                if joined && slopes.step_m(here, there, to_m - from_m) <= floor_m + noise_m {
+                    self.further[there] = true;
+                    self.next.push(there);
+                }
+            }
+        }
+    }
+
+    /// Height of the lowest that is known, m: of so many cells that it is believed, or of stairs or the goal.
+    fn lowest_m(
+        &mut self,
+        terrain: &Terrain,
+        sight: &Sight<'_>,
+        config: &PlatformEdgesConfig,
+    ) -> f64 {
+        let known_m = terrain.height_m.iter().filter(|height| !height.is_nan());
+        self.heights_m.clear();
+        self.heights_m.extend(known_m);
+        let at = config.lower_cells.saturating_sub(1);
+        let seen_m = (at < self.heights_m.len()).then(|| {
+            let (_, &mut lowest_m, _) = self.heights_m.select_nth_unstable_by(at, f32::total_cmp);
+            f64::from(lowest_m)
+        });
+        lowest_told_m(sight).min(seen_m.unwrap_or(f64::INFINITY))
     }
 
     fn find_ground(
@@ -136,11 +208,16 @@ impl PlatformEdges {
 
 /// Whether something known, or the goal, lies lower than the robot stands.
 fn is_raised(terrain: &Terrain, sight: &Sight<'_>, config: &PlatformEdgesConfig) -> bool {
-    let heights = sight.stairs.stairs.iter().map(stairs::Stair::height_m);
-    let lowest_known_m = heights.chain(sight.goal_m).fold(f64::INFINITY, f64::min);
     let below_m = sight.stand.height_m - config.raised * terrain.settings.max_step;
     let lower = |height: &&f32| f64::from(**height) < below_m;
-    lowest_known_m < below_m || terrain.height_m.iter().filter(lower).count() >= config.lower_cells
+    lowest_told_m(sight) < below_m
+        || terrain.height_m.iter().filter(lower).count() >= config.lower_cells
+}
+
+/// Height of the lowest stair or of the goal, m.
+fn lowest_told_m(sight: &Sight<'_>) -> f64 {
+    let heights = sight.stairs.stairs.iter().map(stairs::Stair::height_m);
+    heights.chain(sight.goal_m).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
@@ -183,5 +260,46 @@ mod tests {
         let at = cell(&terrain, 0.075, 0.025);
         assert_eq!(terrain.level_m(at), Some(f64::from(0.2_f32)));
         assert!(!terrain.edge[at]);
+    }
+
+    /// The robot on a ramp of 0.2 m, up from the floor to a platform, with nothing seen beside it.
+    fn ramp() -> Floor {
+        let mut floor = Floor::new();
+        floor.paint([-2.0, -2.0], [2.0, 2.0], Surface::Unknown);
+        floor.paint([-2.0, -2.0], [-1.5, 2.0], Surface::Floor(0.0));
+        floor.ramp([-1.5, -0.5], [0.5, 0.5], [0.0, 0.2]);
+        floor.paint([0.5, -0.5], [1.5, 0.5], Surface::Floor(0.2));
+        floor.stand.height_m = 0.15;
+        floor.stand.gradient = [0.1, 0.0];
+        floor
+    }
+
+    #[test]
+    fn the_side_of_a_slope_is_an_edge_where_the_robot_was_near_and_so_is_that_of_what_it_leads_up_to()
+     {
+        let terrain = ramp().after("platform_edges");
+        let is_edge = |x_m: f64, y_m: f64| terrain.edge[cell(&terrain, x_m, y_m)];
+        assert!(is_edge(0.225, 0.525) && is_edge(-0.225, -0.525));
+        assert!(!is_edge(-1.025, 0.525), "what lies there may come in sight");
+        assert!(
+            is_edge(1.025, 0.525) && is_edge(1.525, 0.025),
+            "a level's end"
+        );
+        assert!(!is_edge(0.225, 0.025) && !is_edge(1.025, 0.025));
+        assert!(!is_edge(-1.775, 0.025), "the floor is not raised");
+    }
+
+    #[test]
+    fn ground_of_which_the_height_is_unsure_is_part_of_the_level() {
+        let mut floor = platform();
+        floor.goal_m = Some(0.0);
+        floor.paint([0.3, -0.5], [0.5, 0.5], Surface::Floor(0.23));
+        let is_edge = |floor: &Floor| {
+            let terrain = floor.after("platform_edges");
+            terrain.edge[cell(&terrain, 0.525, 0.025)]
+        };
+        assert!(!is_edge(&floor), "a level of its own");
+        floor.doubt([0.3, -0.5], [0.5, 0.5], 0.02);
+        assert!(is_edge(&floor));
     }
 }

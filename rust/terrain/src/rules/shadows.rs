@@ -72,7 +72,8 @@ fn mark_line(terrain: &mut Terrain, first: usize, stride: usize, count: usize, w
         {
             let (from, to) = (first + known * stride, first + i * stride);
             let rise = terrain.slopes.step_m(from, to, here - height);
-            if two_levels(f64::from(rise), 0.0, floor_m) {
+            let noise_m = f64::from(terrain.noise_m(from, to));
+            if two_levels(f64::from(rise), 0.0, floor_m + noise_m) {
                 for between in known..=i {
                     terrain.mark_step(first + between * stride, rise);
                 }
@@ -99,5 +100,8 @@ mod tests {
         let edge = |x_m: f64| terrain.edge[cell(&terrain, x_m, 0.025)];
         assert!([0.275, 0.325, 0.475, 0.525].into_iter().all(edge));
         assert!(![-0.175, -0.325, -0.525].into_iter().any(edge));
+        floor.doubt([0.5, -2.0], [2.0, 2.0], 0.02);
+        let terrain = floor.after("shadows");
+        assert!(!terrain.any_edge, "3 cm may be noise");
     }
 }
