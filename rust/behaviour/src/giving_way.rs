@@ -233,7 +233,7 @@ impl GivingWay {
         let (x_m, y_m) = pose.inverse().apply(to_m[0], to_m[1]);
         let away_m = geometry::hypot(x_m, y_m);
         let share = self.config.pace / away_m;
-        (away_m > REACHED_M).then(|| Velocity {
+        (away_m > REACHED_M).then_some(Velocity {
             x_mps: share * x_m,
             y_mps: share * y_m,
             yaw_radps: 0.0,

@@ -196,7 +196,7 @@ mod tests {
         Overlay::new(
             Box::new(fog),
             FeltConfig::default(),
-            ChangingConfig::default(),
+            (ChangingConfig::default(), 0.6),
         )
     }
 
