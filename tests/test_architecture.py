@@ -21,6 +21,7 @@ SIMULATOR = {"simulated_body", "mujoco_step"}
 # Tested through what uses them, by the test named.
 TESTED_BY = {
     "map_making.headroom": "test_map.py",
+    "judging.entries": "test_result.py",
     "mapping.camera": "test_mapping.py",
     "mapping.checks": "test_mapping.py",
     "mapping.stairs": "test_mapping.py",

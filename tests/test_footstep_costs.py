@@ -2,7 +2,7 @@
 
 from episode_builders import result, world
 
-from treadwell.judging.result import FootstepPlanEntry
+from treadwell.judging.entries import FootstepPlanEntry
 from treadwell.reporting.footstep_costs import footstep_costs
 from treadwell.reporting.tables import table
 

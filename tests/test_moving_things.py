@@ -1,4 +1,4 @@
-"""Claims about what moves on a robot's way: it is followed, foreseen, and waited for."""
+"""Claims about what changes on a robot's way: who moves is followed and given way, doors open."""
 
 from typing import Any
 
@@ -57,3 +57,30 @@ def test_nothing_is_followed_where_that_is_not_wanted() -> None:
     for _ in range(20):
         episode.tick()
     assert episode.pilot.moving_things == []
+
+
+def test_who_crosses_is_given_way() -> None:
+    """Before, the robot stopped where somebody passed: five touches with this seed."""
+    episode = Episode("person_crosses", robot="qrio", seed=1)
+    states = set()
+    while episode.simulation.time_ns < 24e9:
+        states.add(episode.tick().state)
+    assert "give_way" in states
+    assert episode.judge.collisions == []
+
+
+@pytest.mark.long
+def test_the_way_back_leads_through_the_door_that_was_opened_again() -> None:
+    episode = Episode("door_shuts", robot="qrio", seed=0)
+    door, crossed = 1.2, []
+    before = 0.0
+    while episode.verdict is None:
+        episode.tick()
+        x, y = episode.judge.frame[:2]
+        if (before - door) * (x - door) < 0:
+            crossed.append(y)
+        before = x
+    assert episode.verdict.outcome == "goal_reached"
+    there, back = crossed
+    assert there > 0.7
+    assert abs(back) < 0.35

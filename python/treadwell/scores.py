@@ -108,7 +108,11 @@ def result_of(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: 
         falls=judge.falls,
         collisions=[
             CollisionEntry(
-                time=hit.time, robot_part=hit.robot_part, element=hit.element, impulse=hit.impulse
+                time=hit.time,
+                robot_part=hit.robot_part,
+                element=hit.element,
+                impulse=hit.impulse,
+                **({} if hit.encounter is None else hit.encounter._asdict()),
             )
             for hit in judge.collisions
         ],

@@ -66,7 +66,7 @@ def result_rows(document: Mapping[str, Any]) -> list[Row]:
         ("simulated time", _number(document.get("simulated_seconds"), "s", 1)),
         ("real-time factor", _number(document.get("real_time_factor"), "", 1)),
         ("falls", document.get("falls")),
-        ("collisions", len(document.get("collisions", []))),
+        ("collisions", _collisions(document)),
         ("steps taken", document.get("steps_taken")),
         ("path length", _number(document.get("path_length"), "m", 2)),
         ("replans", document.get("replans")),
@@ -81,6 +81,16 @@ def result_line(document: Mapping[str, Any]) -> str:
     passed = "passed" if document["passed"] else "not passed"
     time = _number(document["simulated_seconds"], "s", 1)
     return f"{result_title(document)}: {document['outcome']} after {time}, {passed}"
+
+
+def collisions_in_words(count: int, standing: int) -> str:
+    """Return how many collisions there were, and in how many of them the robot stood, if any."""
+    return f"{count}, {standing} of them while it stood" if standing else str(count)
+
+
+def _collisions(document: Mapping[str, Any]) -> str:
+    hits = document.get("collisions", [])
+    return collisions_in_words(len(hits), sum(hit.get("standing") is True for hit in hits))
 
 
 def replay_title(document: Mapping[str, Any]) -> str:

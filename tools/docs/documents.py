@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from treadwell.summary import collisions_in_words
+
 
 @dataclass(frozen=True)
 class Taken:
@@ -71,7 +73,9 @@ def _sweep(document: dict[str, Any]) -> Taken:
             "successes": f"{line['successes']} of {line['episodes']}",
             "justified refusals": str(line["justified"]),
             "falls": str(line["falls"]),
-            "collisions": str(line["collisions"]),
+            "collisions": collisions_in_words(
+                line["collisions"], line.get("collisions_standing", 0)
+            ),
             "median time": "-" if time is None else f"{time:.1f} s",
         }
         rows.append({"what": name, "measured": figures})

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from treadwell._core import Surfaces
 from treadwell.course.course import Course
 from treadwell.course.height_field import FieldPiece
+from treadwell.judging.encounters import Encounter, Encounters
 from treadwell.robot.load import Robot
 from treadwell.scenario.scaling import size_of
 
@@ -40,6 +41,7 @@ class Collision:
         last: s, of the last touch.
         riser_only: a sole on a riser; counts where the impulse is above `least`.
         least: N·s.
+        encounter: how the two met, where the element moved when it began.
     """
 
     time: float
@@ -49,6 +51,7 @@ class Collision:
     last: float
     riser_only: bool
     least: float = RISER_IMPULSE
+    encounter: Encounter | None = None
 
     @property
     def counts(self) -> bool:
@@ -92,6 +95,7 @@ class Contacts:
         self._least = RISER_IMPULSE * size_of(robot).impulse
         self._field_touch = FIELD_TOUCH * course.scale
         self._scratch = mujoco.MjData(model)
+        self._encounters = Encounters(model)
         body_of = np.asarray(model.geom_bodyid)
         is_robot = np.asarray(model.body_rootid)[body_of] == model.body(robot.root).id
         foot = np.full(model.ngeom, -1)
@@ -115,19 +119,21 @@ class Contacts:
         self._open: dict[tuple[str, str], Collision] = {}
         self._closed: list[Collision] = []
 
-    def look(self, data: mujoco.MjData, time: float, interval: float) -> Touch:
+    def look(self, data: mujoco.MjData, time: float, interval: float, still: float = 0.0) -> Touch:
         """Sort the contacts there are now.
 
         Args:
             data: after a tick; contacts are those of the present positions.
             time: s, now.
             interval: s since the last look: for how long the forces are taken to have acted.
+            still: s for which the robot had stood on both soles at the last look.
         """
         contact = data.contact
         frames = contact.frame if not self._fields else self._by_surface(data)
         left, right, lying, hits = self._surfaces.sort(contact.geom, frames)
         if hits:
-            self._add(data, hits, time, interval)
+            self._add(data, hits, time, interval, still)
+        self._encounters.note(data)
         if lying is None:
             return _STANCES[left][right]
         return Touch(left, right, self._part[lying])
@@ -173,6 +179,7 @@ class Contacts:
         hits: list[tuple[int, int, int]],
         time: float,
         interval: float,
+        still: float,
     ) -> None:
         # After a tick the contacts are there but not yet their forces: they are found on a copy.
         scratch, force = self._scratch, np.zeros(6)
@@ -189,6 +196,7 @@ class Contacts:
                 known = None
             if known is None:
                 known = self._open[pair] = Collision(time, *pair, 0.0, time, riser, self._least)
+                known.encounter = self._encounters.at(scratch, index, other, interval, still)
             known.impulse += float(force[0]) * interval
             known.last = time
             known.riser_only = known.riser_only and riser

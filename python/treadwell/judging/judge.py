@@ -91,8 +91,9 @@ class Judge:
             data: positions, link poses and contacts up to date.
             time_s: simulated time, s.
         """
+        still = self.still_seconds
         interval, self._time = max(0.0, time_s - self._time), time_s
-        touch = self.touch = self._contacts.look(data, time_s, interval)
+        touch = self.touch = self._contacts.look(data, time_s, interval, still)
         on_left, on_right, fallen_part = touch
         soles, tilt = self.truth.look(data)
         self.soles = soles

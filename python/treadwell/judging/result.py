@@ -1,14 +1,17 @@
 """`result.json`: what came of an episode, and whether it met its expectations."""
 
+# ruff: noqa: RUF012 - pydantic gives each object its own copy of a default
+
 import json
 import math
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
+from pydantic import Field, FiniteFloat, ValidationError
 
 from treadwell.errors import InputError
 from treadwell.files import read_text, write_text
+from treadwell.judging.entries import Count, FootstepPlanEntry, Instant, Table
 from treadwell.scenario.model import Expect
 from treadwell.summary import Shown
 
@@ -21,18 +24,8 @@ STAGES: Final = (
 """Keys of `timing_ms`."""
 
 Outcome = Literal["goal_reached", "refused", "fell", "timed_out", "stuck", "interrupted", "error"]
-Count = Annotated[int, Field(ge=0)]
-Instant = Annotated[FiniteFloat, Field(ge=0.0, le=1e6)]
-"""Simulated seconds since the start: a scenario's time limit is below it."""
 Share = Annotated[FiniteFloat, Field(ge=0.0, le=1.0)]
-
-
-class Table(BaseModel):
-    """A part of the result: no further keys, no NaN, no infinity."""
-
-    model_config = ConfigDict(
-        extra="forbid", allow_inf_nan=False, populate_by_name=True, use_attribute_docstrings=True
-    )
+_WHERE_IT_MOVED: Any = Field(default=None, exclude_if=lambda found: found is None)
 
 
 class CollisionEntry(Table):
@@ -46,6 +39,13 @@ class CollisionEntry(Table):
     """The element's name, or its kind and number."""
     impulse: float
     """Force times time, N·s."""
+    standing: bool | None = _WHERE_IT_MOVED
+    """Of an element that moved when it began: whether the robot stood, for half a second unmoved on
+    both soles. Left out for what did not move, as are the two speeds."""
+    robot_speed: FiniteFloat | None = _WHERE_IT_MOVED
+    """At which the robot's touched point moved towards the element then, m/s."""
+    element_speed: FiniteFloat | None = _WHERE_IT_MOVED
+    """At which the element's touched point moved towards the robot then, m/s."""
 
 
 class Spread(Table):
@@ -117,29 +117,6 @@ class StateEntry(Table):
     """When it was entered, simulated seconds."""
     state: str
     """Its name."""
-
-
-class FootstepPlanEntry(Table):
-    """A plan of footsteps by which the feet began to step: what it costs, and for what."""
-
-    time: Instant
-    """When they began, simulated seconds."""
-    steps: Count = 0
-    """How many steps it has."""
-    careful_steps: Count = 0
-    """How many of them are careful ones."""
-    walked: float = 0.0
-    """The time of its walked steps, s."""
-    careful: float = 0.0
-    """The time of its careful steps, s."""
-    partial: float = 0.0
-    """What it costs that soles bear in part, s."""
-    turns: float = 0.0
-    """What it costs that feet turn, s."""
-    unseen: float = 0.0
-    """What the way costs on from there over ground that was not seen, s."""
-    expanded: Count = 0
-    """Places of a foot that were looked on from."""
 
 
 class Timing(Table):
@@ -223,6 +200,11 @@ class Result(Shown, Table):
     timing_ms: dict[str, Timing] = {}
     """Stage -> how long it took, ms."""
 
+    @property
+    def collisions_standing(self) -> int:
+        """Collisions with what moved into the robot, or along it, while it stood."""
+        return sum(hit.standing is True for hit in self.collisions)
+
     def judged_by(self, expect: Expect) -> "Result":
         """Return the result with `failures` and `passed` by a scenario's expectations."""
         failures = unmet(self, expect)
@@ -259,6 +241,8 @@ def unmet(result: Result, expect: Expect) -> list[str]:
     at_most("max_time", result.simulated_seconds, expect.max_time, " s")
     at_most("max_falls", result.falls, expect.max_falls, "")
     at_most("max_collisions", len(result.collisions), expect.max_collisions, "")
+    walking = len(result.collisions) - result.collisions_standing
+    at_most("max_collisions_walking", walking, expect.max_collisions_walking, "")
     localization = result.localization
     error = None if localization is None else localization.translation_error.mean
     at_most("max_translation_error", error, expect.max_translation_error, " m")

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from treadwell.footstep_plan import FootstepPlan
-from treadwell.judging.result import FootstepPlanEntry
+from treadwell.judging.entries import FootstepPlanEntry
 from treadwell.trace import Sole
 
 

@@ -7,14 +7,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from treadwell.files import write_text
-from treadwell.judging.result import (
-    SCHEMA,
-    Count,
-    LocalizationErrors,
-    StateEntry,
-    Table,
-    Timing,
-)
+from treadwell.judging.entries import Count, Table
+from treadwell.judging.result import SCHEMA, LocalizationErrors, StateEntry, Timing
 from treadwell.summary import ShownReplay
 
 

@@ -20,6 +20,7 @@ from treadwell.reporting.images import Shot, film_uri, picture_uri, strip
 from treadwell.reporting.repeat import Repeat, repeat_command
 from treadwell.reporting.run_data import RunData, pose_errors
 from treadwell.reporting.tables import TableData, table
+from treadwell.summary import collisions_in_words
 
 
 @dataclass(slots=True)
@@ -118,7 +119,7 @@ def _facts(run: RunData) -> list[tuple[str, str]]:
         ("simulated", f"{result.simulated_seconds:.1f} s"),
         ("against real time", f"{result.real_time_factor:.1f} ×"),
         ("falls", str(result.falls)),
-        ("collisions", str(len(result.collisions))),
+        ("collisions", collisions_in_words(len(result.collisions), result.collisions_standing)),
         ("steps taken", str(result.steps_taken)),
         *(
             [("of them planned one by one", str(result.footsteps_planned))]
@@ -144,7 +145,22 @@ def _first_tables(result: Result) -> list[TableData]:
     hits = sorted(result.collisions, key=lambda hit: -hit.impulse)
     rows = [(f"{hit.time:.2f}", hit.robot_part, hit.element, f"{hit.impulse:.2f}") for hit in hits]
     columns = ("time (s)", "part of the robot", "element", "impulse (N·s)")
-    return [table("Collisions, the hardest first", columns, rows)]
+    found = [table("Collisions, the hardest first", columns, rows)]
+    met = [
+        (
+            f"{hit.time:.2f}",
+            hit.robot_part,
+            hit.element,
+            "stood" if hit.standing else "walked",
+            *(f"{speed or 0.0:.2f}" for speed in (hit.robot_speed, hit.element_speed)),
+        )
+        for hit in result.collisions
+        if hit.standing is not None
+    ]
+    if met:
+        ways = ("the robot", "towards it (m/s)", "towards the robot (m/s)")
+        found.append(table("Collisions with what moved", (*columns[:3], *ways), met))
+    return found
 
 
 def _tables(result: Result) -> list[TableData]:

@@ -159,6 +159,8 @@ class Expect(Table):
     """Falls at most."""
     max_collisions: Count | None = None
     """Collisions at most."""
+    max_collisions_walking: Count | None = None
+    """Collisions at most, but for those with what moved when they began while the robot stood."""
     max_translation_error: Limit | None = None
     """Mean distance between the believed and the true place at most, m."""
     max_height_error: Limit | None = None

@@ -31,6 +31,7 @@ class Row:
         straight_length: from the start over the points to pass to the goal's disc.
         path_efficiency: that by the way that was walked, at most 1; of those who arrived.
         worst_height_error: of the tops that the robot passed over; None where one has no cell.
+        collisions_standing: those of the collisions with what moved while the robot stood.
         core_ms: sum of the medians of the core's stages.
         end_x, end_y, end_z: where the robot truly was in the end.
         folder: of its recording, within the sweep's folder.
@@ -52,6 +53,7 @@ class Row:
     wall_seconds: float | None = None
     falls: int | None = None
     collisions: int | None = None
+    collisions_standing: int | None = None
     steps_taken: int | None = None
     stairs_climbed: int | None = None
     stairs_descended: int | None = None
@@ -154,6 +156,7 @@ def make_row(
         wall_seconds=result.wall_seconds,
         falls=result.falls,
         collisions=len(result.collisions),
+        collisions_standing=result.collisions_standing,
         steps_taken=result.steps_taken,
         stairs_climbed=result.stairs_climbed,
         stairs_descended=result.stairs_descended,

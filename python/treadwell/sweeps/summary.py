@@ -6,6 +6,7 @@ from statistics import median
 from typing import Any
 
 from treadwell.experiments.experiment import Table
+from treadwell.summary import collisions_in_words
 from treadwell.sweeps.request import Request
 from treadwell.sweeps.row import Row
 
@@ -45,6 +46,7 @@ def summary(rows: Sequence[Row]) -> dict[str, Any]:
         "solvable_known": len(known),
         "falls": sum((row.falls or 0) > 0 for row in rows),
         "collisions": sum(row.collisions or 0 for row in rows),
+        "collisions_standing": sum(row.collisions_standing or 0 for row in rows),
         "outcomes": dict(sorted(Counter(row.outcome for row in rows).items())),
         "not_reproduced": [row.key.text for row in rows if row.reproduced is False],
         "simulated_seconds_median": median(times) if times else None,
@@ -71,7 +73,7 @@ def summary_table(
                 str(line["justified"]),
                 f"{line['solvable']} of {line['solvable_known']}",
                 str(line["falls"]),
-                str(line["collisions"]),
+                collisions_in_words(line["collisions"], line.get("collisions_standing", 0)),
             )
         )
         if line["not_reproduced"]:

@@ -4,6 +4,7 @@ mod climbing;
 mod command;
 mod decision;
 mod footsteps;
+mod giving_way;
 mod machine;
 mod part;
 mod things_met;
@@ -15,6 +16,7 @@ pub use decision::{
     Behaviour, BehaviourError, Decision, Outcome, PlannedFootsteps, Situation, SoleAt,
 };
 pub use footsteps::{Footsteps, SteppingConfig};
+pub use giving_way::{GivingWay, GivingWayConfig, Mover};
 pub use part::{BehaviourNeeds, BehaviourPart};
 pub use planning::footsteps::StepManner;
 pub use walking::{WalkingBehaviour, WalkingConfig};

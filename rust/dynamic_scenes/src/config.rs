@@ -19,9 +19,9 @@ settings! {
         step: f64 = 0.25, "s", POSITIVE;
         /// It keeps away from them by this beside half of their width.
         room: f64 = 0.05, "m", NOT_NEGATIVE;
-        /// It waits while something faster than `fast` will come near within this time; 0: it never waits.
-        wait: f64 = 3.0, "s", NOT_NEGATIVE;
-        /// What is slower is no reason to wait.
+        /// It gives way to what is faster than `fast` and will come near within this time; 0: to nothing.
+        wait: f64 = 4.0, "s", NOT_NEGATIVE;
+        /// What is slower is not given way.
         fast: f64 = 0.1, "m/s", NOT_NEGATIVE;
         /// What moves and is nearer to the middle of the robot is no obstacle to it.
         own: f64 = 0.2, "m", NOT_NEGATIVE;

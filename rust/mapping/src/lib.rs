@@ -2,6 +2,7 @@
 
 mod averaging;
 mod bevel;
+mod changing_places;
 mod columns;
 mod elevation;
 mod felt_place;
@@ -21,6 +22,7 @@ mod two_maps;
 
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
 pub use bevel::Bevel;
+pub use changing_places::ChangingConfig;
 pub use columns::Span;
 pub use elevation::{
     CellMeasurement, CellSizes, Elevation, ElevationConfig, ElevationTuning, EvenSlopeTuning,

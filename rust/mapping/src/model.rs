@@ -241,6 +241,10 @@ pub trait WorldModel: Send + Sync {
     /// until the next time.
     fn foresee(&mut self, _places: &[ForeseenPlace]) {}
 
+    /// The robot goes for its next goal: what was seen blocked may be free again. A model by itself keeps no states;
+    /// [`Overlay`](crate::Overlay) does.
+    fn doubt(&mut self) {}
+
     /// Drops what was seen: the robot found itself at another place than it had believed.
     fn forget(&mut self) {}
 

@@ -1,5 +1,5 @@
 //! What the feet met, short slopes, and where things that move will be: the map keeps them whatever the camera makes of the place, since what is lower or shorter than a
-//! picture tells apart looks like level floor.
+//! picture tells apart looks like level floor. And what was free before it was blocked: it may be free again.
 //!
 //! Composed over any world model, which knows nothing of it: as long as there is nothing of it, the view is the model's own.
 
@@ -8,6 +8,7 @@ use meshes::TriangleMesh;
 use segmentation::Planes;
 use settings::{NOT_NEGATIVE, at_least, settings};
 
+use crate::changing_places::{ChangingConfig, ChangingPlaces};
 use crate::laid_bevels::lay;
 use crate::{
     Bevel, FeltPlace, FloorView, ForeseenPlace, Insertion, MapError, Surface, Voxel, WorldModel,
@@ -31,18 +32,24 @@ pub struct Overlay {
     config: FeltConfig,
     bevels: Vec<Bevel>,
     foreseen: Vec<ForeseenPlace>,
+    changing: ChangingPlaces,
     /// The model's view with all that; `None` while there is nothing.
     view: Option<FloorView>,
 }
 
 impl Overlay {
-    /// Over this model.
-    pub fn new(model: Box<dyn WorldModel>, config: FeltConfig) -> Self {
+    /// Over this model, for a robot of that height, m.
+    pub fn new(
+        model: Box<dyn WorldModel>,
+        config: FeltConfig,
+        changing: (ChangingConfig, f64),
+    ) -> Self {
         Self {
             model,
             config,
             bevels: Vec::new(),
             foreseen: Vec::new(),
+            changing: ChangingPlaces::new(changing.0, changing.1),
             view: None,
         }
     }
@@ -53,6 +60,7 @@ impl Overlay {
             let felt = std::mem::take(&mut view.felt);
             view.clone_from(self.model.view());
             view.felt = felt;
+            self.changing.show(view);
             for bevel in &self.bevels {
                 lay(bevel, view);
             }
@@ -111,6 +119,13 @@ impl WorldModel for Overlay {
         map_from_robot: &Pose<Map, Robot>,
     ) -> Result<Insertion, MapError> {
         let insertion = self.model.insert(planes, map_from_robot)?;
+        if self.changing.is_on() {
+            let view = self.model.view();
+            self.changing.see(view, planes, map_from_robot);
+            if self.view.is_none() && self.changing.doubts(view) {
+                self.view = Some(view.clone());
+            }
+        }
         self.renew();
         Ok(insertion)
     }
@@ -145,10 +160,15 @@ impl WorldModel for Overlay {
         self.renew();
     }
 
+    fn doubt(&mut self) {
+        self.changing.doubt();
+    }
+
     fn forget(&mut self) {
         self.view = None;
         self.foreseen.clear();
         self.bevels.clear();
+        self.changing.forget();
         self.model.forget();
     }
 
@@ -173,7 +193,11 @@ mod tests {
 
     fn model() -> Overlay {
         let fog = Fog::new(FogConfig::default()).unwrap();
-        Overlay::new(Box::new(fog), FeltConfig::default())
+        Overlay::new(
+            Box::new(fog),
+            FeltConfig::default(),
+            (ChangingConfig::default(), 0.6),
+        )
     }
 
     fn blank() -> Planes {

@@ -1,16 +1,31 @@
 //! What moves in a frame: kept out of the map, and foreseen.
 
+use behaviour::Mover;
 use dynamic_scenes::{MovingConfig, MovingThings, MovingTrack, PictureShape, RangeView};
 use geometry::{Camera, Map, Point, Pose, Robot, distance_m};
 use mapping::ForeseenPlace;
+use proprioception::BodyState;
+use robot::Body;
 use segmentation::Planes;
 use settings::ConfigError;
+
+/// How high the camera is above the robot's ground, m.
+pub(crate) fn eye_m(body: &Body, state: &BodyState) -> f64 {
+    let robot_from_camera = state.robot_from_torso * body.torso_from_camera(&state.links);
+    robot_from_camera.origin().inner.z
+}
 
 /// Looks for what moves in each frame that is trusted.
 pub(crate) struct Moving {
     config: MovingConfig,
     /// None where nothing is followed.
     things: Option<MovingThings>,
+}
+
+/// Whether a thing is faster than this, m/s.
+fn is_fast(track: &MovingTrack, fast_mps: f64) -> bool {
+    let [x, y] = track.velocity_mps();
+    geometry::hypot(x, y) > fast_mps
 }
 
 impl Moving {
@@ -94,25 +109,30 @@ impl Moving {
         self.foreseen(map_from_robot)
     }
 
-    /// Whether something that surely moves will come near to a robot of this radius, m, so that it had better wait.
-    pub(crate) fn comes_near(&self, map_from_robot: &Pose<Map, Robot>, radius_m: f64) -> bool {
+    /// What moves, or may, and where it will be from now on.
+    pub(crate) fn movers(&self, now_ns: u64) -> Vec<Mover> {
         let config = &self.config;
-        let robot = map_from_robot.origin().inner;
         let steps = (config.wait / config.step).ceil() as u32;
-        self.tracks()
-            .iter()
-            .filter(|track| track.moves)
-            .any(|track| {
-                let [x, y] = track.velocity_mps();
-                let near_m = radius_m + track.radius_m + config.room;
-                let away_m =
-                    |ahead_s: f64| distance_m(track.predicted(ahead_s).at_m, [robot.x, robot.y]);
-                // What goes away is no reason to wait, however near it is.
-                let comes = away_m(config.step) < away_m(0.0);
-                geometry::hypot(x, y) > config.fast
-                    && comes
-                    && (1..=steps).any(|step| away_m(f64::from(step) * config.step) < near_m)
-            })
+        let now_s = now_ns as f64 * 1e-9;
+        let mover = |track: &MovingTrack| {
+            let late_s = (now_s - track.time_s()).max(0.0);
+            let place_m = |step| {
+                let ahead_s = late_s + f64::from(step) * config.step;
+                track.predicted(ahead_s).at_m
+            };
+            Mover {
+                places_m: (0..=steps).map(place_m).collect(),
+                step_s: config.step,
+                radius_m: track.radius_m,
+                room_m: config.room,
+                is_sure: track.moves,
+            }
+        };
+        let tracks = self.tracks().iter();
+        tracks
+            .filter(|track| !track.moves || is_fast(track, config.fast))
+            .map(mover)
+            .collect()
     }
 
     /// Where what surely moves is and will be, but for what is where the robot stands.

@@ -1,5 +1,6 @@
 //! What a depth frame sets off: scan, planes, pose, map.
 
+use behaviour::Mover;
 use dynamic_scenes::MovingTrack;
 use geometry::{Camera, Map, Pose, Robot};
 use localization::{Estimate, Localizer};
@@ -113,10 +114,9 @@ impl Perception {
         self.moving.tracks()
     }
 
-    /// Whether something that moves will come near to a robot with this body that believes to be there.
-    pub(crate) fn something_comes(&self, estimate: &Estimate, body: &Body) -> bool {
-        let radius_m = body.description().body.radius;
-        self.moving.comes_near(&estimate.map_from_robot, radius_m)
+    /// What moves, or may, and where it will be from now on.
+    pub(crate) fn movers(&self, now_ns: u64) -> Vec<Mover> {
+        self.moving.movers(now_ns)
     }
 
     /// Takes in a frame that a body took. Whether the robot found itself elsewhere than it believed, so that what was mapped is

@@ -2,17 +2,17 @@
 
 use std::sync::Arc;
 
-use behaviour::{Behaviour, BehaviourNeeds};
+use behaviour::{Behaviour, BehaviourNeeds, GivingWay};
 use geometry::Pose;
 use known_map::{KnownMap, KnownMapConfig};
 use localization::{Localizer, LocalizerNeeds};
-use mapping::{WorldModel, WorldModelNeeds};
+use mapping::{ChangingConfig, FeltConfig, Overlay, WorldModel, WorldModelNeeds};
 use planning::{Planner, PlannerNeeds};
 use robot::{Body, Side};
 use segmentation::{Segmenter, SegmenterNeeds};
 use sensing::Intrinsics;
 use settings::{Table, read};
-use stairs::{Feet, Recognizer};
+use stairs::{ClimbingConfig, Feet, Recognizer};
 use volume::octree::Octree;
 use walking::{GaitConfig, Walker, WalkerNeeds};
 
@@ -49,6 +49,25 @@ pub(crate) struct Making<'a> {
 }
 
 impl Making<'_> {
+    /// A world model with what the feet met and what changes over it.
+    pub(crate) fn overlay(&self, model: Box<dyn WorldModel>) -> Result<Overlay, PilotError> {
+        let tables = &self.settings.navigation.tables;
+        let felt: FeltConfig = read(tables, "felt")?;
+        felt.check()?;
+        let changing: ChangingConfig = read(tables, "changing")?;
+        changing.check()?;
+        let height_m = self.body.description().body.height;
+        Ok(Overlay::new(model, felt, (changing, height_m)))
+    }
+
+    pub(crate) fn giving_way(&self) -> Result<GivingWay, PilotError> {
+        let tables = &self.settings.navigation.tables;
+        let climbing: ClimbingConfig = read(tables, "climbing")?;
+        let size = &self.body.description().body;
+        let config = read(tables, "giving_way")?;
+        Ok(GivingWay::new(config, size, climbing.levels.same)?)
+    }
+
     pub(crate) fn segmenter(&self) -> Result<Box<dyn Segmenter>, PilotError> {
         let needs = SegmenterNeeds {
             tables: &self.settings.navigation.tables,

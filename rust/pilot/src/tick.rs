@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use behaviour::{Behaviour, Command, Decision, PlannedFootsteps, Situation, SoleAt};
+use behaviour::{Behaviour, Command, Decision, GivingWay, PlannedFootsteps, Situation, SoleAt};
 use geometry::{Map, Odometry, PlanarPose, Pose, Robot};
 use localization::{Estimate, Localizer};
-use mapping::{FeltConfig, FloorView, Overlay};
+use mapping::FloorView;
 use nalgebra::Vector3;
 use planning::{Plan, Planner};
 use proprioception::{
@@ -22,7 +22,7 @@ use walking::{GaitConfig, JointTargets, ReliefTuning, WalkError, Walker, WalkerS
 
 use crate::feeling;
 use crate::goals::Goals;
-use crate::moving::Moving;
+use crate::moving::{Moving, eye_m};
 use crate::perception::{Perception, PerceptionConfig};
 use crate::registry::{self, Components, Making};
 use crate::timing::{Stage, Timing};
@@ -45,6 +45,7 @@ pub struct Pilot {
     /// Which way it goes.
     pub planner: Box<dyn Planner>,
     behaviour: Box<dyn Behaviour>,
+    giving_way: GivingWay,
     /// What moves the legs.
     pub walker: Box<dyn Walker>,
     gait: GaitConfig,
@@ -145,10 +146,8 @@ impl Pilot {
         let self_filter = SelfFilter::new(&body, &read(tables, "self_filter")?)?;
         let perception: PerceptionConfig = read(tables, "perception")?;
         perception.check()?;
-        let felt: FeltConfig = read(tables, "felt")?;
-        felt.check()?;
         let world_model = (given.world_model).map_or_else(|| making.world_model(), Ok)?;
-        let world_model = Box::new(Overlay::new(world_model, felt));
+        let world_model = Box::new(making.overlay(world_model)?);
         Ok(Self {
             map_from_odometry_at_start: Pose::wrap(settings.start_or_origin().inner),
             proprioception: Proprioception::new(&body, senses.clone())?,
@@ -165,6 +164,7 @@ impl Pilot {
             ),
             localizer: (given.localizer).map_or_else(|| making.localizer(), Ok)?,
             planner: given.planner.map_or_else(|| making.planner(), Ok)?,
+            giving_way: making.giving_way()?,
             behaviour: (given.behaviour).map_or_else(|| making.behaviour(), Ok)?,
             walker: given.walker.map_or_else(|| making.walker(), Ok)?,
             gait,
@@ -223,14 +223,22 @@ impl Pilot {
             last_frame_ns: self.perception.last_frame_ns,
             measured_share: self.frames.measured_share(observation.time_ns),
         };
-        let comes = self.perception.something_comes(&estimate, &self.body);
-        let behaviour = self.behaviour.as_mut();
+        let movers = self.perception.movers(observation.time_ns);
+        let eye_m = eye_m(&self.body, state);
+        let (behaviour, giving_way) = (self.behaviour.as_mut(), &mut self.giving_way);
         let decision = self.timing.measure(Stage::Behave, || {
-            watch::decide(behaviour, &situation, (fault.as_ref(), comes), &self.frames)
+            watch::decide(
+                behaviour,
+                giving_way,
+                &situation,
+                (fault.as_ref(), &movers, eye_m),
+                &self.frames,
+            )
         })?;
         if decision.goal_passed {
             self.goals.advance();
             self.plan = None;
+            self.perception.world_model.doubt();
         }
         let told = (&decision.command, &self.gait.tuning.relief);
         let felt = (&self.body, observation, state);

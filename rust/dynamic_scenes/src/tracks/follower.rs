@@ -83,6 +83,11 @@ impl MovingTrack {
         self.filter.velocity_mps().0
     }
 
+    /// When the last frame was taken, s: predictions count from then on.
+    pub const fn time_s(&self) -> f64 {
+        self.filter.time_s()
+    }
+
     /// When it was seen last, s.
     pub const fn seen_s(&self) -> f64 {
         self.seen_s
