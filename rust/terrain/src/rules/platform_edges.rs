@@ -1,11 +1,13 @@
 //! Rule: where the level that the robot stands on is raised over something, what was not seen beside it is no ground: there it ends.
 
+mod further_ground;
+
 use geometry::{Cell, same_level};
-use mapping::{FloorView, Surface};
+use mapping::Surface;
 use settings::{NOT_NEGATIVE, settings, within};
 
-use crate::cells::{around, beside};
-use crate::{Sight, StandingAt, Terrain};
+use crate::{Sight, StandingAt, Terrain, cells::around};
+use further_ground::FurtherGround;
 
 settings! {
     /// Where the level that the robot stands on ends.
@@ -27,10 +29,7 @@ settings! {
 pub(super) struct PlatformEdges {
     ground: Vec<bool>,
     gaps: Vec<usize>,
-    /// Raised ground that goes on from it: over slopes, or as far as heights are unsure.
-    further: Vec<bool>,
-    next: Vec<usize>,
-    heights_m: Vec<f32>,
+    further: FurtherGround,
 }
 
 impl PlatformEdges {
@@ -56,81 +55,19 @@ impl PlatformEdges {
         let tolerance_m = config.level * terrain.settings.max_step;
         self.find_ground(terrain, sight, (tolerance_m, blind_m));
         self.close_gaps(terrain, stand, config.gap);
-        self.go_further(terrain, sight, config);
+        let raised_m = config.raised * terrain.settings.max_step;
+        let lower = (raised_m, lowest_told_m(sight), config.lower_cells);
+        self.further.find(terrain, &self.ground, lower);
         let size = [terrain.cols, self.ground.len() / terrain.cols.max(1)];
         for (index, &ground) in self.ground.iter().enumerate() {
             let unseen = !ground && terrain.height_m[index].is_nan() && !terrain.blocked[index];
-            let mut around = around(index, 1, size);
-            if unseen
-                && around.any(|next| {
-                    self.ground[next] || self.ends_at(next, index, (terrain, sight.view))
-                })
-            {
+            let seen = (&*terrain, sight.view);
+            let ends = |next| self.ground[next] || self.further.ends_at(next, index, seen);
+            if unseen && around(index, 1, size).any(ends) {
                 terrain.mark_edge(index);
                 terrain.open[index] = true;
             }
         }
-    }
-
-    /// Whether ground that goes on from the robot's level ends beside a cell without a height: where nothing was seen there, and of a slope only where
-    /// the robot was so near that it would have seen more of it.
-    fn ends_at(&self, ground: usize, cell: usize, (terrain, view): (&Terrain, &FloorView)) -> bool {
-        let is_further = self.further.get(ground) == Some(&true);
-        let was_near = || f64::from(terrain.nearest_m[cell]) <= terrain.settings.judge_range;
-        is_further
-            && view.cells.values()[cell] == Surface::Unknown
-            && (!terrain.slopes.is_near(ground) || was_near())
-    }
-
-    /// Finds the raised ground that goes on from the robot's level without a step, where it is sloped or its heights are unsure.
-    fn go_further(&mut self, terrain: &Terrain, sight: &Sight<'_>, config: &PlatformEdgesConfig) {
-        self.further.clear();
-        let is_unsure = || terrain.sigma_m.iter().any(|&sigma_m| sigma_m > 0.0);
-        if terrain.slopes.near.is_empty() && !is_unsure() {
-            return;
-        }
-        let least_m =
-            self.lowest_m(terrain, sight, config) + config.raised * terrain.settings.max_step;
-        let floor_m = terrain.needs.limits.floor_m as f32;
-        self.further.resize(self.ground.len(), false);
-        self.next.clear();
-        let ground = self.ground.iter().enumerate();
-        self.next
-            .extend(ground.filter_map(|(index, &ground)| ground.then_some(index)));
-        while let Some(here) = self.next.pop() {
-            for there in beside(here, terrain.cols, self.ground.len()) {
-                let [from_m, to_m] = [here, there].map(|index| terrain.height_m[index]);
-                let is_new = !self.ground[there] && !self.further[there];
-                let (noise_m, slopes) = (terrain.noise_m(here, there), &terrain.slopes);
-                let is_unsure = noise_m > 0.0 || slopes.is_near(here) || slopes.is_near(there);
-                let leads_on = is_unsure || self.further[here];
-                // What is no number is no ground.
-                let is_raised = f64::from(to_m) > least_m;
-                let joined = is_new && leads_on && is_raised && !terrain.blocked[there];
-                if joined && slopes.step_m(here, there, to_m - from_m) <= floor_m + noise_m {
-                    self.further[there] = true;
-                    self.next.push(there);
-                }
-            }
-        }
-    }
-
-    /// Height of the lowest that is known, m: of so many cells that it is believed, or of stairs or the goal.
-    fn lowest_m(
-        &mut self,
-        terrain: &Terrain,
-        sight: &Sight<'_>,
-        config: &PlatformEdgesConfig,
-    ) -> f64 {
-        let known_m = terrain.height_m.iter().filter(|height| !height.is_nan());
-        self.heights_m.clear();
-        self.heights_m.extend(known_m);
-        let at = config.lower_cells.saturating_sub(1);
-        let seen_m = (at < self.heights_m.len()).then(|| {
-            let (_, &mut lowest_m, _) = self.heights_m.select_nth_unstable_by(at, f32::total_cmp);
-            f64::from(lowest_m)
-        });
-        lowest_told_m(sight).min(seen_m.unwrap_or(f64::INFINITY))
     }
 
     fn find_ground(
