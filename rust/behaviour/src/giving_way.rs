@@ -14,7 +14,7 @@ use settings::{ConfigError, NOT_NEGATIVE, POSITIVE, Table, at_least, settings};
 use terrain::support::{is_level_floor, is_roomy};
 
 pub use mover::Mover;
-use trail::Trail;
+use trail::OwnTrail;
 
 use crate::{Decision, Gaze, Motion, Situation, Velocity};
 
@@ -48,7 +48,7 @@ pub struct GivingWay {
     foot_side_m: f64,
     /// Heights that differ by less are one level, m.
     same_m: f64,
-    trail: Trail,
+    trail: OwnTrail,
     /// Where it steps to, m in the map frame.
     to_m: Option<[f64; 2]>,
     /// The last frame that it thought about.
@@ -64,7 +64,7 @@ impl GivingWay {
             radius_m: size.radius,
             foot_side_m: size.foot_side,
             same_m,
-            trail: Trail::default(),
+            trail: OwnTrail::default(),
             to_m: None,
             frame_ns: None,
         })
@@ -113,7 +113,9 @@ impl GivingWay {
         } else {
             self.to_m = None;
         }
-        let steps = self.to_m.and_then(|to_m| self.steps(&pose, to_m));
+        let steps = self
+            .to_m
+            .and_then(|to_m| self.steps(&pose, to_m, cell_m / 2.0));
         let on = |velocity: Velocity, time_s: f64| {
             let (x_m, y_m) = pose.apply(velocity.x_mps * time_s, velocity.y_mps * time_s);
             [x_m, y_m]
@@ -201,7 +203,7 @@ impl GivingWay {
                     })
                 };
                 let found_m = room_m([cos, sin], away_m);
-                if found_m > best.0 + NO_BETTER_M && free() {
+                if found_m > best.0 && free() {
                     best = (found_m, Some(place(away_m)));
                 }
             }
@@ -228,12 +230,12 @@ impl GivingWay {
                 }))
     }
 
-    /// Steps towards a place; none once it is reached.
-    fn steps(&self, pose: &PlanarPose, to_m: [f64; 2]) -> Option<Velocity> {
+    /// Steps towards a place; none once it is no further away than this, m.
+    fn steps(&self, pose: &PlanarPose, to_m: [f64; 2], reached_m: f64) -> Option<Velocity> {
         let (x_m, y_m) = pose.inverse().apply(to_m[0], to_m[1]);
         let away_m = geometry::hypot(x_m, y_m);
         let share = self.config.pace / away_m;
-        (away_m > REACHED_M).then_some(Velocity {
+        (away_m > reached_m).then_some(Velocity {
             x_mps: share * x_m,
             y_mps: share * y_m,
             yaw_radps: 0.0,
@@ -265,9 +267,3 @@ impl GivingWay {
             .map(|(_, gaze)| gaze)
     }
 }
-
-/// A place that leaves no more room than this is no better than a nearer one, m.
-const NO_BETTER_M: f64 = 1e-3;
-
-/// A place that is no further away is reached, m.
-const REACHED_M: f64 = 0.02;

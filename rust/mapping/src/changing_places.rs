@@ -30,7 +30,7 @@ settings! {
 
 /// What is known of a cell's past.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Place {
+struct ChangingPlace {
     /// Height of the floor that was seen there, m; NaN where none was.
     floor_m: f32,
     /// When something was last seen on it, nanoseconds since the start; `None` before the first time, and since it was free again.
@@ -47,7 +47,7 @@ struct Place {
     doubted: bool,
 }
 
-const NEVER_SEEN: Place = Place {
+const NEVER_SEEN: ChangingPlace = ChangingPlace {
     floor_m: f32::NAN,
     blocked_ns: None,
     times: 0,
@@ -64,7 +64,7 @@ pub(crate) struct ChangingPlaces {
     /// Height of the robot, m.
     height_m: f64,
     lattice: Lattice,
-    places: Grid<Place>,
+    places: Grid<ChangingPlace>,
     now_ns: u64,
 }
 
@@ -148,7 +148,7 @@ impl ChangingPlaces {
     }
 
     /// Whether it is not known if a place is blocked where the model has it so: nothing was seen there, or that was long ago, or the floor was seen since.
-    fn is_doubted(&self, place: &Place) -> bool {
+    fn is_doubted(&self, place: &ChangingPlace) -> bool {
         let believed_s = self.config.believed * libm::exp2(f64::from(place.times.max(1) - 1));
         let since_s = |blocked_ns| self.now_ns.saturating_sub(blocked_ns) as f64 * 1e-9;
         place.floor_m.is_finite()

@@ -224,16 +224,10 @@ impl Pilot {
             measured_share: self.frames.measured_share(observation.time_ns),
         };
         let movers = self.perception.movers(observation.time_ns);
-        let eye_m = eye_m(&self.body, state);
+        let watched = (fault.as_ref(), &movers[..], eye_m(&self.body, state));
         let (behaviour, giving_way) = (self.behaviour.as_mut(), &mut self.giving_way);
         let decision = self.timing.measure(Stage::Behave, || {
-            watch::decide(
-                behaviour,
-                giving_way,
-                &situation,
-                (fault.as_ref(), &movers, eye_m),
-                &self.frames,
-            )
+            watch::decide(behaviour, giving_way, &situation, watched, &self.frames)
         })?;
         if decision.goal_passed {
             self.goals.advance();
@@ -243,10 +237,9 @@ impl Pilot {
         let told = (&decision.command, &self.gait.tuning.relief);
         let felt = (&self.body, observation, state);
         let seen = (self.perception.world_model.view(), &estimate);
-        let walker = self.walker.as_mut();
         let targets = self
             .timing
-            .measure(Stage::Walk, || walk(walker, told, felt, seen))?;
+            .measure(Stage::Walk, || walk(self.walker.as_mut(), told, felt, seen))?;
         let dead_reckoning = self.map_from_odometry_at_start * state.odometry_from_robot;
         note(targets, &mut self.senses, &mut self.proprioception);
         Ok(Tick {

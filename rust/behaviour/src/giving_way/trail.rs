@@ -6,9 +6,9 @@ use geometry::distance_m;
 
 /// Where the robot was of late, m in the map frame: it may step back there, though it did not look at the ground before its feet.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Trail(VecDeque<[f64; 3]>);
+pub(super) struct OwnTrail(VecDeque<[f64; 3]>);
 
-impl Trail {
+impl OwnTrail {
     /// Takes in where the robot is, m, if that is so far from the last place; no more than the last `most` are kept.
     pub(super) fn note(&mut self, at_m: [f64; 3], apart_m: f64, most: usize) {
         let away_m = |last: &[f64; 3]| distance_m([last[0], last[1]], [at_m[0], at_m[1]]);
