@@ -22,6 +22,8 @@ settings! {
         shared_hip: SharedHipTuning;
         /// What narrow soles change of the gait.
         sole_fit: SoleFitTuning;
+        /// How the motion of the centre of mass is measured.
+        balance: BalanceTuning;
         /// How the torso turns, and the swing foot with its tilt.
         posture: PostureTuning;
         /// The height of the hips.
@@ -68,6 +70,15 @@ settings! {
         least_load: f64 = 1.0, "N", POSITIVE;
         /// Share of the robot's weight that the feet must carry for their centre of pressure to count.
         pressure_load: f64 = 0.3, "1", SHARE;
+    }
+}
+
+settings! {
+    /// How the motion of the centre of mass is measured.
+    pub struct BalanceTuning("gait.tuning.balance") {
+        /// Share of the turn of a foot that lands turned which is taken out of the speed of the centre of mass; where soles are narrower
+        /// than the robot is large and this is not given, all of it.
+        turned: f64 = 0.0, "1", SHARE;
     }
 }
 
