@@ -28,6 +28,8 @@ pub struct Balance {
     pub velocity_mps: Vector2<f64>,
     /// Measured centre of pressure, m; `None` while the feet carry next to nothing.
     pub pressure: Option<Vector2<f64>>,
+    /// Share of the weight that the feet carry.
+    pub(crate) carried: f64,
 }
 
 /// What one tick measures.
@@ -67,6 +69,7 @@ impl Balance {
             com,
             velocity_mps: Vector2::zeros(),
             pressure: None,
+            carried: 1.0,
         }
     }
 
@@ -99,6 +102,7 @@ impl Balance {
         }
         self.plan_from_torso.translation = Translation3::from(torso);
         self.pressure = self.center_of_pressure(sensed);
+        self.carried = sensed.foot_forces_n.iter().flatten().sum::<f64>() / sensed.weight_n;
         if !self.started {
             self.started = true;
             self.com = com;

@@ -214,6 +214,9 @@ settings! {
     pub struct StumbleTuning("gait.tuning.stumble") {
         /// Share of the swing after which a load on the foot is a landing.
         landing_share: f64 = 0.6, "1", SHARE;
+        /// A foot that touched early, is held higher than this for it, and carries nothing as both are to goes down again: it has only
+        /// touched. Where soles are narrower than the robot is large and this is not given, at any height.
+        hangs: f64 = 0.02, "m", within(0.0, 10.0);
         /// How far off the edge that it met a foot goes back.
         clear: f64 = 0.025, "m", within(0.0, 10.0);
         /// A foot of which more than this share lies beyond the edge that it met stands well there: pressed at its
