@@ -99,6 +99,7 @@ impl Catching {
         };
         self.state = match self.state {
             _ if !gait.may_catch() => Watch::Settling(0.0),
+            Watch::Ready(_) if falling.carried < tuning.carried => Watch::Ready(0.0),
             Watch::Ready(_) if self.outwards(gait, &falling.dcm).1 > tuning.tips => {
                 Watch::Pushed(0.0)
             }

@@ -15,6 +15,8 @@ struct Robot {
     gait: Gait,
     catching: Catching,
     soles: Soles,
+    /// Share of the weight that the feet carry.
+    carried: f64,
 }
 
 impl Robot {
@@ -25,6 +27,7 @@ impl Robot {
             gait,
             catching: Catching::new(&config, planner),
             soles: Soles::new(&body, config.sole_margin),
+            carried: 1.0,
         }
     }
 
@@ -59,6 +62,7 @@ impl Robot {
                 soles: &self.soles,
                 task,
                 loads_n: [0.0; 2],
+                carried: self.carried,
                 soles_m: Side::BOTH.map(|side| {
                     let foot = self.gait.foot(side);
                     Vector3::new(foot.planar.x_m, foot.planar.y_m, foot.z_m)
@@ -116,6 +120,21 @@ fn a_jolt_is_no_push_and_neither_is_a_start() {
     assert_eq!(robot.feels(2, 0.1, 0.0), None);
     assert_eq!(robot.feels(50, 0.0, 0.0), None);
     assert_eq!(Robot::standing().feels(50, 0.1, 0.0), None);
+}
+
+#[test]
+fn a_robot_that_its_own_leg_has_lifted_is_not_taken_to_be_pushed() {
+    let caught = |carried: f64| {
+        let mut config = config();
+        config.tuning.catching.carried = 0.7;
+        let mut robot = Robot::standing();
+        robot.catching = Catching::new(&config, FootstepPlanner::new(&config, &biped()));
+        let _ = robot.feels(50, 0.0, 0.0);
+        robot.carried = carried;
+        robot.feels(6, 0.1, 0.0)
+    };
+    assert_eq!(caught(0.4), None);
+    assert!(caught(0.9).is_some());
 }
 
 #[test]
@@ -202,6 +221,7 @@ fn a_foot_that_touches_the_ground_lands_where_it_is() {
         soles: &robot.soles,
         task,
         loads_n: [20.0, 40.0],
+        carried: 1.0,
         soles_m: [Vector3::new(0.013, 0.071, 0.0), Vector3::zeros()],
         passed_s: TICK_S,
     };

@@ -37,7 +37,7 @@ impl FeetControl {
     }
 
     /// Takes in the loads on the feet. While both stand, the one with more than its share yields upwards, the other one down;
-    /// a foot that finds the ground before its time stays at that height.
+    /// a foot that finds the ground before its time stays at that height, and one that has left it again seeks it as both are to carry.
     pub fn update(
         &mut self,
         phase: &GaitPhase,
@@ -70,7 +70,12 @@ impl FeetControl {
             self.seeks = (!swing.manner.is_careful() && self.held.is_none()).then_some(swing.side);
             return;
         }
-        self.held = None;
+        if let Some(held) = self.held.take() {
+            let index = held.side.index();
+            let high = self.landed[index] > config.tuning.stumble.hangs;
+            let hangs = high && loads_n[index] <= config.landing_load;
+            self.seeks = hangs.then_some(held.side);
+        }
         let error = 0.5 * ((loads_n[0] - loads_n[1]) - (share[0] - share[1]) * weight_n);
         self.tilt_m = (self.tilt_m + config.load_gain * error * passed_s)
             .clamp(-config.load_limit, config.load_limit);
@@ -138,6 +143,38 @@ mod tests {
     use super::*;
     use crate::phase::{Manner, Swing};
     use crate::test_biped::config;
+
+    #[test]
+    fn a_foot_that_touched_early_and_hangs_as_both_are_to_carry_goes_down_again() {
+        let lowers_m = |load_n: f64, hangs: f64| {
+            let mut config = config();
+            config.tuning.stumble.hangs = hangs;
+            let mut control = FeetControl::new(&config);
+            let foot = FootPose::default();
+            let swing = Swing::new(Side::Left, Manner::Walk, foot, foot);
+            let phase = |share: f64| GaitPhase::Single {
+                elapsed_s: share * 0.35,
+                duration_s: 0.35,
+                swing,
+            };
+            control.update(&phase(0.8), &[0.0, 1.0], &[20.0, 50.0], 70.0, 0.01);
+            let _ = control.place(&phase(0.8), foot, Side::Left);
+            let before_m = control.landed[0];
+            let both = GaitPhase::Double {
+                elapsed_s: 0.0,
+                duration_s: 0.15,
+                from: nalgebra::Vector2::zeros(),
+                next: None,
+            };
+            for _ in 0..3 {
+                control.update(&both, &[0.5, 0.5], &[load_n, 70.0], 70.0, 0.01);
+            }
+            before_m - control.landed[0]
+        };
+        assert!((lowers_m(0.0, 0.0) - 3.0 * 0.01 * config().late_speed).abs() < 2e-4);
+        assert!(lowers_m(30.0, 0.0).abs() < 2e-4);
+        assert!(lowers_m(0.0, 0.02).abs() < 2e-4);
+    }
 
     #[test]
     fn the_foot_with_too_much_load_yields_upwards() {

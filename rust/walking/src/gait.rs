@@ -125,7 +125,7 @@ impl Gait {
         let next = self.next_swing(&self.feet, swing.side, task, 0);
         let duration_s = next.map_or(self.config.shift_time, |next| {
             next.manner.double_support_s(&self.config)
-        });
+        }) + std::mem::take(&mut self.listed.early_s);
         self.phase = Self::shift(zmp, next, duration_s);
     }
 

@@ -33,6 +33,8 @@ pub(crate) struct Falling<'a> {
     pub(crate) task: Task<'a>,
     /// Loads on the feet, N.
     pub(crate) loads_n: [f64; 2],
+    /// Share of the weight that the feet carry.
+    pub(crate) carried: f64,
     /// Where the soles are, m.
     pub(crate) soles_m: [Vector3<f64>; 2],
     /// Time since the last tick, s.
@@ -57,6 +59,7 @@ impl<'a> Falling<'a> {
             soles,
             task,
             loads_n: felt.loads_n,
+            carried: balance.carried,
             soles_m: felt.soles_m,
             passed_s,
         }

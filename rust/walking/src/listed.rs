@@ -20,6 +20,8 @@ pub(crate) struct Listed {
     pub(crate) misstep: Option<Misstep>,
     /// How often a foot was put down again because the robot tipped.
     pub(crate) put_down: usize,
+    /// How much sooner than planned a careful foot carries because the robot tips towards it, s.
+    pub(crate) early_s: f64,
     /// Whether a walk has come upon a level that it was not told of.
     pub(crate) stumbled: bool,
     /// What it has come upon, in the plan, until that was told.

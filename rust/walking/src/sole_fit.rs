@@ -10,7 +10,8 @@ use crate::config::GaitConfig;
 
 impl GaitConfig {
     /// Sets what `[gait]` does not say: a quicker step, after which an error has grown as much less as the sole is narrower; a margin
-    /// and a side step that are the same share of the sole; the weight further in, but less so in careful steps, in which a foot
+    /// and a side step that are the same share of the sole; a speed of the centre of mass in which a foot that lands turned is no jump,
+    /// for half a sole is all that holds what such a jump asks for; a foot that goes down again as soon as it hangs; the weight further in, but less so in careful steps, in which a foot
     /// carries for longer than a fall to either side takes; and feet nearer to each other, for what a step does wrong goes with how far the
     /// weight sways, and with how far a leg is thrown aside. `omega`: of the pendulum, 1/s.
     pub(crate) fn fit_soles(&mut self, body: &Body, said: &serde_json::Value, omega: f64) {
@@ -38,6 +39,15 @@ impl GaitConfig {
         }
         if !is_said("max_sideways") {
             self.max_sideways *= share;
+        }
+        if said.pointer("/tuning/stumble/hangs").is_none() {
+            self.tuning.stumble.hangs = 0.0;
+        }
+        if said.pointer("/tuning/catching/carried").is_none() {
+            self.tuning.catching.carried = self.tuning.sole_fit.carried;
+        }
+        if said.pointer("/tuning/balance/turned").is_none() {
+            self.tuning.balance.turned = 1.0;
         }
         let room_m = (0.5 * width_m - self.sole_margin).max(0.0);
         if !is_said("support_inward") {
@@ -83,6 +93,9 @@ mod tests {
         assert!(narrow.sole_margin < scaled.sole_margin);
         assert!(narrow.support_inward > scaled.support_inward);
         assert!(narrow.max_sideways < scaled.max_sideways);
+        let turned = |gait: &GaitConfig| gait.tuning.balance.turned;
+        assert_eq!((turned(&scaled), turned(&narrow)), (0.0, 1.0));
+        assert!(scaled.tuning.stumble.hangs > 0.0 && narrow.tuning.stumble.hangs == 0.0);
         assert_eq!(scaled.climb_inward, None);
         let (narrowest, least) = (gait(0.04, serde_json::Value::Null), 0.02);
         let careful = narrowest.climb_inward.unwrap();

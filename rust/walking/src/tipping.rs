@@ -2,39 +2,48 @@
 //!
 //! A step of a list is put where it was told, so that no landing can be moved to catch it, and the ankle cannot pull beyond the edge.
 //! But such a tip shows while the foot has hardly left, and takes most of a second: time to put the foot down where it was, and to
-//! begin again.
+//! begin again. One that shows later is over when the foot carries, which it does as soon as it has found the ground.
 
 use geometry::PlanarPose;
 use nalgebra::Vector2;
 
 use crate::gait::Gait;
-use crate::phase::{GaitPhase, Manner, Swing};
+use crate::phase::{CarefulLanding, GaitPhase, Manner, Swing};
 use crate::swing;
 
 impl Gait {
-    /// Puts a careful foot down again that has risen but not gone anywhere yet where the DCM's `error` says that the robot tips
-    /// towards it. The step is taken anew after that.
+    /// Where the DCM's `error` says that the robot tips towards a careful foot: one that has found the ground carries at once, and what that
+    /// saves of its time is taken to shift the weight; one that has risen but not gone anywhere yet is put down again, and its step is
+    /// taken anew after that.
     pub(crate) fn catch_tipping(&mut self, error: &Vector2<f64>) {
         let GaitPhase::Single {
-            elapsed_s, swing, ..
-        } = self.phase
+            elapsed_s,
+            duration_s,
+            swing,
+        } = &mut self.phase
         else {
             return;
         };
-        let tuning = &self.config.tuning.tipping;
-        let share = elapsed_s / swing.in_air_s(&self.config);
-        if swing.manner != Manner::Careful
-            || swing::careful_travel(share, &self.config.tuning.swing) > tuning.gone_share
-            || self.listed.put_down >= tuning.times
-        {
-            return;
-        }
         let stance_yaw_rad = self.feet[swing.side.other().index()].planar.yaw_rad;
         let (ahead_m, left_m) = PlanarPose::new(0.0, 0.0, -stance_yaw_rad).apply(error.x, error.y);
         let towards_m = left_m * swing.side.sign();
-        if towards_m > self.config.tip_error && ahead_m.abs() < tuning.ahead_share * towards_m {
+        if !swing.manner.is_careful() || towards_m <= self.config.tip_error {
+            return;
+        }
+        if matches!(swing.landing, CarefulLanding::Found(_)) {
+            self.listed.early_s = (*duration_s - *elapsed_s).max(0.0);
+            *elapsed_s = *duration_s;
+            return;
+        }
+        let tuning = &self.config.tuning.tipping;
+        let share = *elapsed_s / swing.in_air_s(&self.config);
+        if swing.manner == Manner::Careful
+            && swing::careful_travel(share, &self.config.tuning.swing) <= tuning.gone_share
+            && self.listed.put_down < tuning.times
+            && ahead_m.abs() < tuning.ahead_share * towards_m
+        {
             self.listed.put_down += 1;
-            let here = swing.foot(elapsed_s, &self.config);
+            let here = swing.foot(*elapsed_s, &self.config);
             let down = Swing::new(swing.side, Manner::Retreat, here, swing.from);
             self.phase = GaitPhase::Single {
                 elapsed_s: 0.0,
@@ -105,6 +114,34 @@ mod tests {
         assert!(down && manner(&gait) == Some(Manner::Careful));
         assert_eq!(gait.stepping().landed, 0);
         assert_eq!(gait.stepping().misstep, None);
+    }
+
+    #[test]
+    fn a_foot_that_has_found_the_ground_carries_at_once_where_the_robot_tips_towards_it() {
+        let carries_after_s = |y_m: f64| {
+            let mut gait = climbing(0.9);
+            let GaitPhase::Single {
+                swing,
+                elapsed_s,
+                duration_s,
+            } = &mut gait.phase
+            else {
+                panic!("the foot is on its way");
+            };
+            swing.landing = CarefulLanding::Found(0.04);
+            let left_s = *duration_s - *elapsed_s;
+            gait.catch_tipping(&Vector2::new(0.0, y_m));
+            gait.advance(0.01, Task::Steps(&STEP), &KnownGround::AsTold);
+            match gait.phase {
+                GaitPhase::Double { duration_s, .. } => Some((left_s, duration_s)),
+                _ => None,
+            }
+        };
+        assert_eq!(carries_after_s(0.015), None);
+        assert_eq!(carries_after_s(-0.03), None);
+        let (left_s, shift_s) = carries_after_s(0.03).unwrap();
+        let planned_s = crate::test_biped::config().shift_time;
+        assert!(left_s > 0.1 && (shift_s - planned_s - left_s).abs() < 1e-9);
     }
 
     #[test]

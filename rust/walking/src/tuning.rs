@@ -22,6 +22,8 @@ settings! {
         shared_hip: SharedHipTuning;
         /// What narrow soles change of the gait.
         sole_fit: SoleFitTuning;
+        /// How the motion of the centre of mass is measured.
+        balance: BalanceTuning;
         /// How the torso turns, and the swing foot with its tilt.
         posture: PostureTuning;
         /// The height of the hips.
@@ -68,6 +70,15 @@ settings! {
         least_load: f64 = 1.0, "N", POSITIVE;
         /// Share of the robot's weight that the feet must carry for their centre of pressure to count.
         pressure_load: f64 = 0.3, "1", SHARE;
+    }
+}
+
+settings! {
+    /// How the motion of the centre of mass is measured.
+    pub struct BalanceTuning("gait.tuning.balance") {
+        /// Share of the turn of a foot that lands turned which is taken out of the speed of the centre of mass; where soles are narrower
+        /// than the robot is large and this is not given, all of it.
+        turned: f64 = 0.0, "1", SHARE;
     }
 }
 
@@ -203,6 +214,9 @@ settings! {
     pub struct StumbleTuning("gait.tuning.stumble") {
         /// Share of the swing after which a load on the foot is a landing.
         landing_share: f64 = 0.6, "1", SHARE;
+        /// A foot that touched early, is held higher than this for it, and carries nothing as both are to goes down again: it has only
+        /// touched. Where soles are narrower than the robot is large and this is not given, at any height.
+        hangs: f64 = 0.02, "m", within(0.0, 10.0);
         /// How far off the edge that it met a foot goes back.
         clear: f64 = 0.025, "m", within(0.0, 10.0);
         /// A foot of which more than this share lies beyond the edge that it met stands well there: pressed at its

@@ -48,6 +48,8 @@ settings! {
         /// The feet stand nearer to each other where they carry farther apart than so many times what half a sole leaves on either
         /// side of its middle.
         apart: f64 = 2.4, "1", POSITIVE;
+        /// Share of the weight that the feet carry at least where the robot is taken to be pushed.
+        carried: f64 = 0.7, "1", SHARE;
         /// Least distance of the feet, as a share of that in the upright stance: the legs clear each other, in turns too.
         narrowest: f64 = 0.9, "1", above_to(0.0, 1.0);
     }

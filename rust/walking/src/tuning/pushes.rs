@@ -21,6 +21,10 @@ settings! {
         begins: f64 = 0.2, "1", POSITIVE;
         /// Time for which the error has to be so large: a start or a landing jolts for a moment.
         sure_time: f64 = 0.025, "s", within(0.0, 60.0);
+        /// A robot whose feet carry less than this share of its weight is not taken to be pushed: a leg that it throws or stops has lifted it,
+        /// and where its joints have it says nothing until it stands again. Where soles are narrower than the robot is large and this is
+        /// not given, `[gait.tuning.sole_fit]` has it.
+        carried: f64 = 0.0, "1", SHARE;
         /// Error below which a push is over, in heights of the hips.
         ends: f64 = 0.06, "1", POSITIVE;
         /// Time that the error has to be so small.
