@@ -158,7 +158,9 @@ mod tests {
                 swing,
             };
             control.update(&phase(0.8), &[0.0, 1.0], &[20.0, 50.0], 70.0, 0.01);
-            let _ = control.place(&phase(0.8), foot, Side::Left);
+            for z_m in [0.01, 0.0] {
+                let _ = control.place(&phase(0.8), FootPose { z_m, ..foot }, Side::Left);
+            }
             let before_m = control.landed[0];
             let both = GaitPhase::Double {
                 elapsed_s: 0.0,
