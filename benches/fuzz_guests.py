@@ -11,6 +11,7 @@ from PIL import Image
 import treadwell.mjcf.build
 from treadwell.data import data_folder
 from treadwell.errors import InputError
+from treadwell.recording.mesh_file import SurfaceMesh, Texture, read_mesh, write_mesh
 from treadwell.robot.report import report_on
 from treadwell.robot.template import write_template
 from treadwell.serving.framing import pack, read_message
@@ -111,6 +112,7 @@ GUESTS = {
     "poses": ("poses.tum", read_poses),
     "heights": ("height_picture.png", read_height_picture),
     "landmarks": ("landmarks.dat", read_landmarks),
+    "mesh": ("mesh.npz", read_mesh),
 }
 """Kind -> its file's name, and what reads it."""
 
@@ -124,3 +126,7 @@ def guests(folder: Path) -> None:
     (folder / "poses.tum").write_text(POSES, encoding="utf-8")
     (folder / "height_picture.png").write_bytes(_picture(np.uint8))
     (folder / "landmarks.dat").write_text(MEASUREMENTS, encoding="utf-8")
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.5]], np.float32)
+    texture = Texture(np.full((4, 6, 3), 90, np.uint8), np.full((3, 2), 0.5, np.float32))
+    triangles = np.array([[0, 1, 2]], np.uint32)
+    write_mesh(folder / "mesh.npz", SurfaceMesh(corners, triangles, texture))
