@@ -4,6 +4,7 @@ import io
 import json
 import shutil
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 from PIL import Image
@@ -39,13 +40,13 @@ def read_model(path: Path) -> None:
 
     What MuJoCo builds is built here: a crash ends one worker, and counts as contained.
     """
-    treadwell.mjcf.build.limited = lambda task, arguments, _: task(*arguments)  # type: ignore[attr-defined]
     folder = path.parent / "robot"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
     shutil.copyfile(path, folder / path.name)
-    write_template(folder)
-    json.dumps(report_on(folder), allow_nan=False)
+    with patch.object(treadwell.mjcf.build, "limited", lambda task, arguments, _: task(*arguments)):
+        write_template(folder)
+        json.dumps(report_on(folder), allow_nan=False)
 
 
 def read_wire(path: Path) -> None:
