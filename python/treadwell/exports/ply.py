@@ -1,7 +1,7 @@
 """PLY files: the cloud, the floors with their steps, the mesh.
 
 `cloud.ply`: what the camera saw. `height_mesh.ply`: the floors. `mesh.ply`: the surface of a world
-model that keeps one.
+model that keeps one, its corners in colour where the data had some.
 
 Binary, little-endian, metres in the map frame. The mesh has sharp steps: every cell is a level
 square of its own, and where two neighbours differ there is an upright face between them.

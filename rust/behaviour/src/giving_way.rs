@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 
 use geometry::{PlanarPose, distance_m};
 use robot::Extent;
-use settings::{ConfigError, NOT_NEGATIVE, POSITIVE, Table, at_least, settings};
+use settings::{ConfigError, NOT_NEGATIVE, POSITIVE, Table, settings, within};
 use terrain::support::{is_level_floor, is_roomy};
 
 pub use mover::Mover;
@@ -24,13 +24,13 @@ settings! {
         /// The robot steps out of the way of what comes with this speed.
         pace: f64 = 0.1, "m/s", POSITIVE;
         /// It steps so far at most; 0: it stands and waits.
-        farthest: f64 = 0.4, "m", NOT_NEGATIVE;
+        farthest: f64 = 0.4, "m", within(0.0, 10.0);
         /// It steps to where what comes will pass with so much more room than has to be.
         spare: f64 = 0.08, "m", NOT_NEGATIVE;
         /// It takes so long from the order to step until it moves.
         delay: f64 = 0.6, "s", NOT_NEGATIVE;
         /// It looks for places in so many directions.
-        directions: u32 = 16, "1", at_least(1.0);
+        directions: u32 = 16, "1", within(1.0, 360.0);
         /// It looks at what may move and is no further away; 0: it looks where it was about to.
         look: f64 = 2.5, "m", NOT_NEGATIVE;
         /// It stands while what may move and is not known yet is no further away.

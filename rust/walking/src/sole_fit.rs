@@ -11,9 +11,10 @@ use crate::config::GaitConfig;
 impl GaitConfig {
     /// Sets what `[gait]` does not say: a quicker step, after which an error has grown as much less as the sole is narrower; a margin
     /// and a side step that are the same share of the sole; a speed of the centre of mass in which a foot that lands turned is no jump,
-    /// for half a sole is all that holds what such a jump asks for; a foot that goes down again as soon as it hangs; the weight further in, but less so in careful steps, in which a foot
-    /// carries for longer than a fall to either side takes; and feet nearer to each other, for what a step does wrong goes with how far the
-    /// weight sways, and with how far a leg is thrown aside. `omega`: of the pendulum, 1/s.
+    /// for half a sole is all that holds what such a jump asks for; a foot that goes down again as soon as it hangs; the weight further
+    /// in, but less so in careful steps, in which a foot carries for longer than a fall to either side takes; and feet nearer to each
+    /// other, for what a step does wrong goes with how far the weight sways, and with how far a leg is thrown aside. `omega`: of the
+    /// pendulum, 1/s.
     pub(crate) fn fit_soles(&mut self, body: &Body, said: &serde_json::Value, omega: f64) {
         let description = body.description();
         let width_m = Side::BOTH

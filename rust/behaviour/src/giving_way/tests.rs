@@ -115,6 +115,17 @@ fn giving_way() -> GivingWay {
 
 const FAR_M: [f64; 2] = [1.9, 0.0];
 
+/// What becomes of walking ahead over a level floor where somebody is met.
+fn on_the_way_meets(somebody: &Mover) -> Decision {
+    let at = ([0.0; 2], &view(Surface::Floor(0.0)), FAR_M);
+    changed(
+        &mut giving_way(),
+        ahead(),
+        at,
+        std::slice::from_ref(somebody),
+    )
+}
+
 #[test]
 fn where_nothing_moves_no_decision_is_changed() {
     let view = view(Surface::Floor(0.0));
@@ -131,48 +142,30 @@ fn where_nothing_moves_no_decision_is_changed() {
 
 #[test]
 fn who_comes_by_far_off_or_goes_away_is_no_reason_to_stop() {
-    let view = view(Surface::Floor(0.0));
     for somebody in [
         walker([1.5, 1.5], [-0.3, 0.0]),
         walker([0.4, 0.1], [0.3, 0.0]),
     ] {
-        let found = changed(
-            &mut giving_way(),
-            ahead(),
-            ([0.0; 2], &view, FAR_M),
-            &[somebody],
-        );
+        let found = on_the_way_meets(&somebody);
         assert_eq!(found.command.motion, ahead());
     }
 }
 
 #[test]
 fn who_will_cross_the_way_ahead_is_waited_for_before_it() {
-    let view = view(Surface::Floor(0.0));
     // Two seconds on it is where the robot would then be; the place where the robot is stays free.
     let somebody = walker([0.55, -0.9], [0.0, 0.3]);
-    let found = changed(
-        &mut giving_way(),
-        ahead(),
-        ([0.0; 2], &view, FAR_M),
-        &[somebody],
-    );
+    let found = on_the_way_meets(&somebody);
     assert_eq!((found.command.motion, found.state), (Motion::Stand, "stop"));
 }
 
 #[test]
 fn who_is_not_known_yet_is_looked_at_and_not_given_way() {
-    let view = view(Surface::Floor(0.0));
     let somebody = Mover {
         is_sure: false,
         ..walker([1.3, 0.5], [-0.3, -0.15])
     };
-    let found = changed(
-        &mut giving_way(),
-        ahead(),
-        ([0.0; 2], &view, FAR_M),
-        &[somebody],
-    );
+    let found = on_the_way_meets(&somebody);
     assert_eq!(found.command.motion, ahead());
     let away_m = geometry::hypot(1.3, 0.5);
     assert!((found.command.gaze.pan_rad - libm::atan2(0.5, 1.3)).abs() < 1e-9);
@@ -181,30 +174,18 @@ fn who_is_not_known_yet_is_looked_at_and_not_given_way() {
 
 #[test]
 fn who_is_near_and_not_known_yet_is_waited_for_until_it_is() {
-    let view = view(Surface::Floor(0.0));
     let somebody = Mover {
         is_sure: false,
         ..walker([0.8, 0.5], [0.0, 0.0])
     };
-    let found = changed(
-        &mut giving_way(),
-        ahead(),
-        ([0.0; 2], &view, FAR_M),
-        &[somebody],
-    );
+    let found = on_the_way_meets(&somebody);
     assert_eq!((found.command.motion, found.state), (Motion::Stand, "stop"));
 }
 
 #[test]
 fn who_would_be_touched_all_the_same_stands() {
-    let view = view(Surface::Floor(0.0));
     let somebody = walker([0.35, 0.0], [-0.3, 0.0]);
-    let found = changed(
-        &mut giving_way(),
-        ahead(),
-        ([0.0; 2], &view, FAR_M),
-        &[somebody],
-    );
+    let found = on_the_way_meets(&somebody);
     assert_eq!(found.command.motion, Motion::Stand);
 }
 
@@ -254,12 +235,8 @@ fn nobody_steps_where_nothing_is_known_or_something_stands() {
         let mut view = view(blocked);
         paint(&mut view, -0.02, 0.02, Surface::Floor(0.0));
         let somebody = walker([0.8, 0.05], [-0.3, 0.0]);
-        let found = changed(
-            &mut giving_way(),
-            ahead(),
-            ([0.0; 2], &view, FAR_M),
-            &[somebody],
-        );
+        let at = ([0.0; 2], &view, FAR_M);
+        let found = changed(&mut giving_way(), ahead(), at, &[somebody]);
         match found.command.motion {
             Motion::Walk(velocity) => assert!(velocity.x_mps.abs() < 1e-9, "{velocity:?}"),
             motion => assert_eq!(motion, Motion::Stand),

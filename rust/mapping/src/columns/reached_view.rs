@@ -139,11 +139,7 @@ impl ReachedView {
         let upper_m = (self.rule.edge).and_then(|edge| upper_surface(own_m, away, edge));
         let height_m = upper_m.unwrap_or(own_m);
         let estimate = |index: usize, height_m: f32| {
-            let sigma_m = self.view.sigmas_m.values()[index];
-            HeightEstimate {
-                height_m,
-                variance_m2: sigma_m * sigma_m,
-            }
+            HeightEstimate::with_sigma(height_m, self.view.sigmas_m.values()[index])
         };
         let (own, rule) = (estimate(index, height_m), self.elevation.rise_rule());
         let mut beside = runs(CellArea::of(cell).grown(1), size).flatten();

@@ -10,6 +10,14 @@ pub struct HeightEstimate {
 }
 
 impl HeightEstimate {
+    /// A height with its standard deviation, m.
+    pub(crate) const fn with_sigma(height_m: f32, sigma_m: f32) -> Self {
+        Self {
+            height_m,
+            variance_m2: sigma_m * sigma_m,
+        }
+    }
+
     /// The estimate after a measurement of the same surface: 004, equations 36.17 and 36.18. It is the mean of all that was fused,
     /// weighted by inverse variances, and never less sure than before.
     #[must_use]

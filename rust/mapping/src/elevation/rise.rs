@@ -30,19 +30,12 @@ mod tests {
         gate: 3.0,
     };
 
-    const fn known(height_m: f32, sigma_m: f32) -> HeightEstimate {
-        HeightEstimate {
-            height_m,
-            variance_m2: sigma_m * sigma_m,
-        }
-    }
-
     proptest! {
         #[test]
         fn what_is_known_well_is_told_by_its_height_alone(
             rise_m in -0.2..0.2f32, sigma_m in 0.0..0.01f32,
         ) {
-            let is_above = RULE.is_above(known(1.0 + rise_m, sigma_m), known(1.0, sigma_m));
+            let is_above = RULE.is_above(HeightEstimate::with_sigma(1.0 + rise_m, sigma_m), HeightEstimate::with_sigma(1.0, sigma_m));
             prop_assert_eq!(is_above, (1.0 + rise_m) - 1.0 > RULE.most_m);
         }
 
@@ -50,13 +43,16 @@ mod tests {
         fn less_sure_heights_never_make_an_obstacle(
             rise_m in 0.0..0.3f32, sigma_m in 0.0..0.05f32, more in 1.0..5.0f32,
         ) {
-            let is_above = |sigma_m: f32| RULE.is_above(known(rise_m, sigma_m), known(0.0, sigma_m));
+            let is_above = |sigma_m: f32| RULE.is_above(HeightEstimate::with_sigma(rise_m, sigma_m), HeightEstimate::with_sigma(0.0, sigma_m));
             prop_assert!(is_above(sigma_m) || !is_above(more * sigma_m));
         }
     }
 
     #[test]
     fn nothing_is_told_beside_what_is_unknown() {
-        assert!(!RULE.is_above(known(1.0, 0.01), known(f32::NAN, 0.0)));
+        assert!(!RULE.is_above(
+            HeightEstimate::with_sigma(1.0, 0.01),
+            HeightEstimate::with_sigma(f32::NAN, 0.0)
+        ));
     }
 }

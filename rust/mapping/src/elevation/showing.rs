@@ -50,11 +50,7 @@ impl Elevation {
         };
         let height_m = upper_surface(own_m, away, self.config.edge_rule()).unwrap_or(own_m);
         let estimate = |index: usize, height_m: f32| {
-            let sigma_m = self.view.sigmas_m.values()[index];
-            HeightEstimate {
-                height_m,
-                variance_m2: sigma_m * sigma_m,
-            }
+            HeightEstimate::with_sigma(height_m, self.view.sigmas_m.values()[index])
         };
         let beside = CellArea::of(cell_of(index, size)).grown(1);
         let (own, rule) = (estimate(index, height_m), self.config.rise_rule());
