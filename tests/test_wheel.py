@@ -1,5 +1,6 @@
 """A built wheel, in an empty environment and from another folder, finds all that it needs."""
 
+import fcntl
 import json
 import os
 import shutil
@@ -45,13 +46,29 @@ def no_network(what: str, done: subprocess.CompletedProcess[str]) -> None:
         pytest.skip(said)
 
 
-@pytest.fixture(scope="module")
+def of_all_workers(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The session's folder, the same one in each worker that shares its tests."""
+    base = tmp_path_factory.getbasetemp()
+    return base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+
+@pytest.fixture(scope="session")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    out = tmp_path_factory.mktemp("wheel")
-    maturin = Path(sys.executable).parent / "maturin"
-    done = call(maturin, "build", "--release", "--locked", "--out", out, "-i", sys.executable)
-    assert done.returncode == 0, done.stderr[-3000:]
-    (made,) = out.glob("*.whl")
+    """The wheel, built by the first worker that asks.
+
+    Two builds at once would take the library from each other: maturin moves it out of the
+    folder that both build in.
+    """
+    shared = of_all_workers(tmp_path_factory)
+    with (shared / "wheel.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        out = shared / "wheel"
+        if not list(out.glob("*.whl")):
+            maturin = Path(sys.executable).parent / "maturin"
+            to = ("--out", out, "-i", sys.executable)
+            done = call(maturin, "build", "--release", "--locked", *to)
+            assert done.returncode == 0, done.stderr[-3000:]
+        (made,) = out.glob("*.whl")
     return made
 
 
