@@ -11,12 +11,18 @@ CELL = 0.04
 
 
 def window(
-    memory: MapMemory, col: int, row: int, kind: np.ndarray, height: float = 0.01, seen: int = 3
+    memory: MapMemory,
+    col: int,
+    row: int,
+    kind: np.ndarray,
+    height: float = 0.01,
+    seen: int = 3,
+    forgotten: int = 0,
 ) -> None:
     kind = np.asarray(kind, dtype=np.uint8)
     heights = np.where(kind == UNKNOWN, np.nan, height).astype(np.float32)
     sightings = np.where(kind == FLOOR, seen, 0).astype(np.uint16)
-    memory.update((col * CELL, row * CELL), CELL, kind, heights, sightings)
+    memory.update((col * CELL, row * CELL), CELL, kind, heights, sightings, forgotten=forgotten)
 
 
 def value(memory: MapMemory, col: int, row: int) -> int:
@@ -54,6 +60,20 @@ def test_a_cell_that_comes_back_unseen_keeps_its_value_until_it_is_seen() -> Non
     window(memory, 0, 0, [[UNKNOWN, UNKNOWN]])
     assert value(memory, 0, 0) == FLOOR
     assert value(memory, 1, 0) == UNKNOWN
+
+
+def test_what_the_core_forgot_is_forgotten_and_what_had_left_its_window_is_not() -> None:
+    memory = MapMemory()
+    window(memory, -9, 0, [[FLOOR, OBSTACLE]])
+    window(memory, 0, 0, [[FLOOR, OBSTACLE]])
+    window(memory, 40, 0, [[FLOOR, FLOOR]], forgotten=1)
+    assert [value(memory, col, 0) for col in (0, 1)] == [UNKNOWN, UNKNOWN]
+    assert [value(memory, col, 0) for col in (-9, -8, 40, 41)] == [FLOOR, OBSTACLE, FLOOR, FLOOR]
+    # It is seen to be forgotten once, whatever was in its place before.
+    window(memory, 0, 0, [[UNKNOWN, FLOOR]], forgotten=1)
+    assert [value(memory, col, 0) for col in (0, 1, 40)] == [UNKNOWN, FLOOR, FLOOR]
+    window(memory, 0, 0, [[UNKNOWN, UNKNOWN]], forgotten=2)
+    assert [value(memory, col, 0) for col in (1, 40)] == [UNKNOWN, FLOOR]
 
 
 def test_centres_are_where_the_cells_are() -> None:

@@ -5,12 +5,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from user_parts import Legs
 
 import treadwell
-from treadwell._core import Pilot
+from treadwell._core import BodyState, Pilot
 from treadwell.errors import InputError, RecordingError
 from treadwell.judging.result import read_result
+from treadwell.map_memory import UNKNOWN
 from treadwell.physics.simulation import Simulation
+from treadwell.protocols import Pose
+from treadwell.recording.map_file import read_map
 from treadwell.recording.observation_log import read_observations
 from treadwell.recording.trajectory import read_trajectory
 from treadwell.recording.verification import verify_run
@@ -35,6 +39,25 @@ def test_a_run_leaves_all_its_files_and_they_belong_together(recorded: Run) -> N
     found = verify_run(recorded.folder)
     assert found.problems == ()
     assert found.steps == 1000
+
+
+class Relocated(Legs):
+    """A localizer that finds by its sixth frame that it had been 12 m to the side all along."""
+
+    def estimate(self, body: BodyState) -> Pose:
+        x, y, z, yaw = super().estimate(body)
+        return x, y + 12.0 * (self.corrections > 5), z, yaw
+
+
+def test_who_finds_itself_elsewhere_has_no_map_left_of_where_it_was_not(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    treadwell.run(
+        "open_floor", localizer=Relocated, overrides={"time_limit": 1.5}, out=folder, record=False
+    )
+    found = read_map(folder / "map.npz").surface
+    known = found.centres()[found.kind != UNKNOWN]
+    assert len(known) > 20
+    assert known[:, 1].min() > 8.0
 
 
 def test_without_recording_the_rest_stays(tmp_path: Path) -> None:

@@ -33,6 +33,16 @@ def test_what_is_no_longer_seen_stays_and_what_is_only_remembered_is_not_taken_i
     assert len(remembered(flight(3, steps_ago=1))) == 0
 
 
+def test_stairs_that_the_core_forgot_are_not_drawn_and_those_of_before_are() -> None:
+    memory = StairMemory()
+    first, wrong = flight(2), flight(5)[3:]
+    for stairs, forgotten in ((first, 0), (wrong, 0), ((), 1)):
+        memory.update(stairs, climbing=False, forgotten=forgotten)
+    assert memory.stairs == [*first]
+    memory.update((), climbing=False, forgotten=None)
+    assert memory.stairs == [*first]
+
+
 def test_the_floor_at_the_foot_of_stairs_is_no_stair_to_be_drawn() -> None:
     (stair,) = flight(1)
     far = np.array([1.0, 0.0, 0.0])

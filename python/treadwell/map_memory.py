@@ -38,10 +38,14 @@ class RememberedMap:
 
 
 class MapMemory:
-    """Keeps each cell's last value. A cell that comes back into the window unseen keeps it, too."""
+    """Keeps each cell's last value. A cell that comes back into the window unseen keeps it, too.
+
+    What the core forgets since it lies in the wrong place is forgotten here, too.
+    """
 
     def __init__(self) -> None:
         """Begin with nothing."""
+        self._forgotten = 0
         self._forget()
 
     def _forget(self) -> None:
@@ -66,6 +70,8 @@ class MapMemory:
         kind: NDArray[np.uint8],
         height: NDArray[np.float32],
         sightings: NDArray[np.uint16],
+        *,
+        forgotten: int = 0,
     ) -> None:
         """Take in the window as it is now; its arrays may not change afterwards.
 
@@ -75,7 +81,12 @@ class MapMemory:
             kind: (rows, cols) uint8.
             height: (rows, cols) float32, m.
             sightings: (rows, cols) uint16.
+            forgotten: how often the core has forgotten its map (`Pilot.maps_forgotten`). Once more
+                than at the last update: what lay in that one's window is unknown.
         """
+        if forgotten != self._forgotten:
+            self._forgotten = forgotten
+            self._forget_window()
         if self._cell != cell:
             self._forget()  # another lattice: nothing carries over
             self._cell, self._origin = cell, origin
@@ -108,6 +119,17 @@ class MapMemory:
         x = self._origin[0] + self._corner[1] * self._cell
         y = self._origin[1] + self._corner[0] * self._cell
         return RememberedMap((x, y), self._cell, self._kind, self._height, self._sightings)
+
+    def _forget_window(self) -> None:
+        """Forget what lay in the last window; what had left it before stays."""
+        if self._window is None:
+            return
+        row, col, end_row, end_col = self._window
+        top, left = self._corner
+        here = np.s_[row - top : end_row - top, col - left : end_col - left]
+        self._kind[here], self._height[here], self._sightings[here] = UNKNOWN, np.nan, 0
+        self._kept[here] = False
+        self._newest = None
 
     def _write_newest(self) -> None:
         """Write down the window that is but the newest one."""

@@ -48,9 +48,11 @@ class Scores:
         self.poses.add_level(believed.pose, believed.odometry, truth)
         self.estimate.add_level(step.time_ns, believed.pose)
         self.truth.add_level(step.time_ns, truth)
-        self.stairs.update(stairs_of(pilot), climbing=bool(step.footsteps))
+        forgotten = pilot.maps_forgotten
+        stairs = stairs_of(pilot)
+        self.stairs.update(stairs, climbing=bool(step.footsteps), forgotten=forgotten)
         self._footsteps(step)
-        self.memory.update(*pilot.floor())
+        self.memory.update(*pilot.floor(), forgotten=forgotten)
 
     def _footsteps(self, step: Step) -> None:
         pilot, judge = self._episode.pilot, self._episode.judge

@@ -101,6 +101,8 @@ class Trace:
         view_kind: (rows, cols) uint8: 0 unknown, 1 floor, 2 obstacle; rows along +y.
         view_height: (rows, cols) float32, NaN where unknown.
         sightings: (rows, cols) uint16, frames that saw the cell as floor.
+        maps_forgotten: how often the robot had found itself elsewhere, and the core had forgotten
+            its map.
         map_due: whether the map's window is to be recorded at this frame.
         clearance: (rows, cols) float32, distance to the nearest obstacle; None without one, or
             where the map is not due.
@@ -140,6 +142,7 @@ class Trace:
     view_kind: NDArray[np.uint8]
     view_height: NDArray[np.float32]
     sightings: NDArray[np.uint16]
+    maps_forgotten: int = 0
     map_due: bool = True
     clearance: NDArray[np.float32] | None = None
     occupied: NDArray[np.float32] = field(default_factory=lambda: np.empty((0, 4), np.float32))

@@ -66,8 +66,9 @@ class GroundWatch:
 
     def frame(self, trace: Trace) -> None:
         """Take in a camera frame."""
+        arrays = (trace.view_kind, trace.view_height, trace.sightings)
         self._memory.update(
-            trace.view_origin, trace.view_cell, trace.view_kind, trace.view_height, trace.sightings
+            trace.view_origin, trace.view_cell, *arrays, forgotten=trace.maps_forgotten
         )
         if self._moving is not None:
             self._moving.frame(trace)

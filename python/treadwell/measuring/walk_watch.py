@@ -96,7 +96,9 @@ class WalkWatch:
         placed = [value for pose in poses for value in _placed(pose)]
         self._rows.append((1e-9 * trace.time_ns, *placed))
         arrays = (trace.view_kind, trace.view_height, trace.sightings)
-        self._memory.update(trace.view_origin, trace.view_cell, *arrays)
+        self._memory.update(
+            trace.view_origin, trace.view_cell, *arrays, forgotten=trace.maps_forgotten
+        )
 
     def findings(self) -> Walk:
         """Return what was seen so far."""

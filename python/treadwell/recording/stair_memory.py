@@ -24,10 +24,28 @@ class StairMemory:
         """Begin with nothing."""
         self.stairs: list[StairTrace] = []
         self.climbing: list[bool] = []
+        self._forgotten = 0
+        self._known: Sequence[StairTrace] = ()
 
-    def update(self, stairs: Sequence[StairTrace], *, climbing: bool) -> None:
-        """Take in the stairs of a camera frame, and whether the feet took listed steps."""
+    def update(
+        self, stairs: Sequence[StairTrace], *, climbing: bool, forgotten: int | None = None
+    ) -> None:
+        """Take in the stairs of a camera frame.
+
+        Args:
+            stairs: those that the core sees or remembers.
+            climbing: whether the feet took listed steps.
+            forgotten: how often the core has forgotten its stairs (`Pilot.maps_forgotten`). Once
+                more than at the last frame: those that it knew then lie in the wrong place. None
+                where that is not known.
+        """
         self.climbing.append(climbing)
+        if forgotten is not None and forgotten != self._forgotten:
+            self._forgotten = forgotten
+            self.stairs = [
+                old for old in self.stairs if not any(_is_same(old, one) for one in self._known)
+            ]
+        self._known = stairs
         for new in stairs:
             if new.steps_ago or new.depth() >= FLOOR_DEPTH:
                 continue

@@ -52,6 +52,7 @@ def trace_of(episode: Episode, step: Step, rhythm: Rhythm | None = None) -> Trac
         view_kind=kind,
         view_height=height,
         sightings=sightings,
+        maps_forgotten=pilot.maps_forgotten,
         map_due=rhythm is None or rhythm.map,
         clearance=pilot.clearance() if rhythm is None or rhythm.map else None,
         occupied=occupied,

@@ -55,8 +55,10 @@ class Findings:
             self.declared = (tick.outcome, tick.reason)
         if observation.depth is not None or now == 0:
             self._frame(now, tick)
-            self.stairs.update(stairs_of(pilot), climbing=bool(tick.footsteps))
-            self.memory.update(*pilot.floor())
+            forgotten = pilot.maps_forgotten
+            stairs = stairs_of(pilot)
+            self.stairs.update(stairs, climbing=bool(tick.footsteps), forgotten=forgotten)
+            self.memory.update(*pilot.floor(), forgotten=forgotten)
         self.last = (observation, tick)
         self.ticks += 1
 

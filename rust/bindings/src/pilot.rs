@@ -285,6 +285,12 @@ impl PyPilot {
         self.pilot.perception.frames_used
     }
 
+    /// How often the robot found itself elsewhere than it had believed, and forgot map and stairs.
+    #[getter]
+    fn maps_forgotten(&self) -> u64 {
+        self.pilot.perception.forgotten
+    }
+
     /// (pan to the left, down from the horizon) rad: where the head is told to look.
     #[getter]
     fn gaze(&self) -> (f64, f64) {

@@ -52,6 +52,8 @@ pub struct Perception {
     pub planes: Planes,
     /// Frames taken into the map so far.
     pub frames_used: u64,
+    /// How often the robot found itself elsewhere, and all that was mapped till then was forgotten.
+    pub forgotten: u64,
     /// When the last frame was taken into the map, nanoseconds since the start.
     pub last_frame_ns: Option<u64>,
     tuning: PerceptionTuning,
@@ -104,6 +106,7 @@ impl Perception {
             moving,
             self_filter,
             frames_used: 0,
+            forgotten: 0,
             last_frame_ns: None,
             tuning: config.tuning,
         }
@@ -151,6 +154,7 @@ impl Perception {
         })?;
         let elsewhere = is_elsewhere(&predicted, &estimate, &self.tuning);
         if elsewhere {
+            self.forgotten += 1;
             self.world_model.forget();
             self.recognizer.forget();
             self.moving.forget();
