@@ -298,11 +298,12 @@ class Miscounting(Meadow.View):
 @pytest.mark.parametrize(
     ("slot", "answer", "message"),
     [
-        ("planner", None, "planner: .*replanned"),
+        ("planner", None, r"planner: Odd: .*plan\(\) must return a Plan, got None"),
+        ("planner", (1, 2), r"plan\(\)\.replanned is missing: found tuple; wanted bool"),
         ("planner", Plan(np.zeros((3, 3))), r"planner: .*path must be \(n, 2\)"),
         ("planner", Plan(np.zeros((0, 2))), "planner: .*n > 0"),
         ("planner", Plan(np.full((2, 2), np.nan)), "planner: .*path must be finite"),
-        ("behaviour", None, "behaviour: "),
+        ("behaviour", None, r"behaviour: .*next\(\) must return a Decision, got None"),
         ("behaviour", Decision("x", velocity=(np.nan, 0.0, 0.0)), "behaviour: .*finite"),
         ("behaviour", Decision("x", gaze=(np.inf, 0.0)), "behaviour: .*finite"),
         ("behaviour", marching(side="middle"), "behaviour: .*left or right, got middle"),
@@ -313,12 +314,15 @@ class Miscounting(Meadow.View):
         ("behaviour", Decision("x", footsteps=((1, 2),)), "behaviour: "),  # type: ignore[arg-type]
         ("localizer", (0.0, 0.0, 0.0), "localizer: "),
         ("localizer", (0.0, 0.0, np.nan, 0.0), "localizer: Odd: .*estimate must be finite"),
+        ("segmenter", None, r"segment\(\) must return a Segmentation, got None"),
         ("segmenter", segmentation(labels=np.zeros(5, np.uint16)), "6336 values, got 5"),
         ("segmenter", segmentation(labels=np.ones(6336, np.uint16)), "at most 0, got 1"),
         ("segmenter", segmentation(robot_from_camera=np.eye(3)), "segmenter: .*finite"),
         ("world_model", BadView, r"world_model: .*one shape"),
         ("world_model", Miscounting, r"world_model: .*kind and sightings must have one shape"),
         ("world_model", "no view", "world_model: "),
+        ("world_model", None, r"view\(\) must return a FloorMap, got None"),
+        ("walker", None, r"step\(\) must return JointTargets, got None"),
     ],
 )
 def test_an_answer_that_makes_no_sense_is_an_error_with_the_parts_name(

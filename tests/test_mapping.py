@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from numpy.typing import DTypeLike, NDArray
 
 from treadwell import mapping
-from treadwell._core import Goal, Planes, Staircase
+from treadwell._core import Goal, Planes, Scan, Staircase
 from treadwell.errors import CoreError, InputError
-from treadwell.protocols import Plan, Pose, Setup
+from treadwell.protocols import Plan, Pose, Segmentation, Setup
 
 STAIRS = flight(rise=0.03, tread=0.2, steps=3)
 FAR = (5000.0, 3000.0, 20.0)
@@ -171,6 +171,74 @@ def test_what_a_world_model_of_ones_own_has_wrong_is_named() -> None:
         world.insert(seen(STAIRS, pose), pose)
 
 
+class Seeing:
+    """A segmenter that takes all that it sees for the ground, and keeps what it was given."""
+
+    def __init__(self) -> None:
+        self.scans: list[Scan] = []
+
+    def segment(self, scan: Scan) -> Segmentation:
+        self.scans.append(scan)
+        labels = np.isfinite(scan.depth).ravel().astype(np.uint16)
+        return Segmentation(labels, [0.0], scan.robot_from_camera, ground=0, reliable=True)
+
+
+@pytest.mark.parametrize(
+    "camera",
+    [
+        CAMERA,
+        mapping.Camera(width=160, height=120, fx=150.0, fy=148.0, cx=110.0, cy=30.0),
+        mapping.Camera(width=161, height=121, fx=150.0, fy=160.0, cx=60.0, cy=75.5),
+    ],
+)
+def test_a_segmenters_points_lie_on_the_floor_wherever_the_optical_axis_is(
+    camera: mapping.Camera,
+) -> None:
+    part, pose = Seeing(), looking(0.0, 0.0, 0.5)
+    world = mapping.Map("fog", camera, segmenter=part)
+    for _ in range(6):
+        found = world.insert(seen([], pose, camera), pose)
+    assert found.reason is None
+    scan = part.scans[-1]
+    rows, cols = np.indices((scan.height, scan.width))
+    x, y, depth = np.moveaxis(scan.points_in_camera.astype(float), -1, 0)
+    np.testing.assert_allclose(x, (cols - scan.cx) / scan.fx * depth, rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(y, (rows - scan.cy) / scan.fy * depth, rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(scan.disparity, scan.fx * scan.baseline / scan.depth, rtol=1e-5)
+    placed = scan.points_in_camera @ scan.robot_from_camera[:3, :3].T
+    placed = placed + scan.robot_from_camera[:3, 3]
+    near = np.isfinite(depth) & (depth < 1.2)
+    assert near.sum() > 2000
+    # Half a pixel, which is what a picture may be laid off by.
+    assert np.abs(placed[near][:, 2]).max() < 0.6 / scan.fx * 1.2
+    view = world.view()
+    assert (view.kind == 1).sum() > 100
+    assert np.nanmax(np.abs(view.height)) < 1e-3
+
+
+def test_what_a_segmenter_of_ones_own_has_wrong_is_named() -> None:
+    class Wrong:
+        def segment(self, _: Scan) -> None:
+            return None
+
+    world, pose = mapping.Map("fog", CAMERA, segmenter=Wrong), looking(0.0, 0.0, 0.5)
+    with pytest.raises(CoreError, match=r"segmenter: Wrong: .*must return a Segmentation, got N"):
+        world.insert(seen(STAIRS, pose), pose)
+
+
+def test_stairs_are_found_by_the_surfaces_of_ones_own_segmenter() -> None:
+    class Levels(Seeing):
+        def segment(self, scan: Scan) -> Segmentation:
+            pose = scan.robot_from_camera
+            height = (scan.points_in_camera @ pose[:3, :3].T + pose[:3, 3])[..., 2].ravel()
+            labels = np.zeros(height.shape, np.uint16)
+            for k in range(4):
+                labels[np.abs(height - 0.03 * k) < 0.004] = k + 1
+            return Segmentation(labels, [0.0, 0.03, 0.06, 0.09], pose, ground=0, reliable=True)
+
+    assert len(mapping.find_stairs(world_of_stairs(segmenter=Levels))) == 3
+
+
 def box_in_the_way(top: float) -> mapping.FloorView:
     height = np.zeros((60, 80))
     height[20:40, 35:45] = top
@@ -227,6 +295,13 @@ def test_a_cloud_is_mapped_from_where_its_sensor_was() -> None:
     assert mapping.plan(world, (-0.5, 0.0, 0.0), (0.5, 0.0)).path is not None
 
 
+AWAY = (0.4, 1.2, 0.0), (2.8, 1.2)
+
+
+class Nothing:
+    def plan(self, *_: object) -> None: ...
+
+
 MILLIMETRES = np.full((120, 160), 1500, np.uint16)
 SKEW = np.diag([2.0, 1.0, 1.0, 1.0])
 
@@ -243,6 +318,8 @@ SKEW = np.diag([2.0, 1.0, 1.0, 1.0])
         (lambda: mapping.Map("fog", CAMERA, overrides=["fog.cell"]), "KEY=VALUE"),
         (lambda: mapping.Map("fog", CAMERA, overrides=cast("Any", [1])), "must be KEY=VALUE"),
         (lambda: mapping.Map(object, CAMERA), "has no method insert, view"),
+        (lambda: mapping.Map("fog", CAMERA, segmenter=object), "has no method segment"),
+        (lambda: mapping.Map("fog", CAMERA, segmenter="scan_lin"), "scan_line"),
         (lambda: mapping.Map("fog", CAMERA).view(), "no frame was taken in yet"),
         (lambda: mapping.Map("fog").insert(np.ones((2, 2)), np.eye(4)), "without a camera"),
         (lambda: mapping.Map("fog", CAMERA).insert(np.ones((2, 2)), np.eye(4)), r"\(120, 160\)"),
@@ -266,6 +343,7 @@ SKEW = np.diag([2.0, 1.0, 1.0, 1.0])
         (lambda: mapping.plan(box_in_the_way(0.3), (0, 0, 0), (1, math.nan)), "goal must be 2"),
         (lambda: mapping.plan(box_in_the_way(0.3), (0, 0, 0), (1, 1), planner="a_sta"), "a_star"),
         (lambda: mapping.plan(box_in_the_way(0.3), (0, 0, 0), (1, 1), robot="qro"), "qrio"),
+        (lambda: mapping.plan(box_in_the_way(0.3), *AWAY, planner=Nothing), "a Plan, got None"),
         (lambda: mapping.plan(object(), (0, 0, 0), (1, 1)), r"view\(\)\.kind is missing"),
     ],
 )

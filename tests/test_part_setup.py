@@ -57,7 +57,10 @@ def test_a_localizer_is_told_the_start_and_reads_each_frame() -> None:
     assert setup.robot["body"]["radius"] == pytest.approx(0.12, abs=0.05)
     assert setup.static_map is not None
     assert len(part.scans) == part.corrections > 5
-    assert part.scans[-1].disparity.shape == (72, 88)
+    scan = part.scans[-1]
+    assert scan.disparity.shape == scan.depth.shape == (scan.height, scan.width) == (72, 88)
+    assert scan.points_in_camera.shape == (72, 88, 3)
+    assert (scan.fx, scan.fy, scan.cx, scan.cy) == pytest.approx((101.2, 101.2, 43.5, 35.5), 0.02)
     told = treadwell.Episode("slalom", seed=2, overrides=("time_limit=1.2", *start))
     for _ in told:
         pass

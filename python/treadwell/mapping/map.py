@@ -71,7 +71,7 @@ class Map:
         camera: Camera | None = None,
         *,
         robot: str | Path | None = None,
-        segmenter: str = "scan_line",
+        segmenter: str | type | object = "scan_line",
         overrides: Overrides = (),
     ) -> None:
         """Choose the parts; the map is made by the first frame.
@@ -81,7 +81,10 @@ class Map:
                 or an object with the methods of `treadwell.protocols.WorldModel`.
             camera: of the pictures.
             robot: a robot's name or folder; with it, stairs are looked for in the pictures.
-            segmenter: what finds surfaces in the pictures, a name of the list.
+            segmenter: what finds surfaces in the pictures: a name of the list,
+                `package.module:Class`, or a class or an object with the method of
+                `treadwell.protocols.Segmenter`. It sees pictures of square pixels whose optical
+                axis is in the middle, as its `Scan` says: those of another camera are laid so.
             overrides: settings of `[navigation]`, as in `{"fog.cell": 0.02}`.
 
         Raises:
@@ -90,11 +93,13 @@ class Map:
         self.camera = camera
         self.robot = None if robot is None else str(robot)
         self.assumed: dict[str, Any] = {}
-        self._segmenter = segmenter
         raw = raw_tables(overrides)
-        own, self._name = own_part("world_model", world_model, raw)
-        self._own = None if own is None else Guard("world_model", self._name, own, _CALL_LIMIT_S)
-        parts = {"segmenter": segmenter, **({} if own else {"world_model": self._name})}
+        self._guards: dict[str, Guard] = {}
+        self._name = self._chosen("world_model", world_model, raw)
+        self._segmenter = self._chosen("segmenter", segmenter, raw)
+        own = self._guards.get("world_model")
+        names = {"segmenter": self._segmenter, "world_model": self._name}
+        parts = {slot: name for slot, name in names.items() if slot not in self._guards}
         self._parameters = checked_tables({**raw, **parts})
         if own is None:
             # Settings that cannot be are refused here, not by the first frame.
@@ -116,7 +121,7 @@ class Map:
 
         Raises:
             InputError: no picture of the camera, or no pose.
-            CoreError: a world model of the user's failed; the map is as it was.
+            CoreError: a part of the user's failed; the map is as it was.
         """
         if self.camera is None:
             raise InputError("Map.insert: the map was made without a camera: Map(..., camera)")
@@ -133,7 +138,7 @@ class Map:
 
         Raises:
             InputError: no cloud or no pose; or the world model finds its floors in pictures.
-            CoreError: a world model of the user's failed; the map is as it was.
+            CoreError: a part of the user's failed; the map is as it was.
         """
         given = np.asarray(points)
         if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
@@ -184,6 +189,13 @@ class Map:
         """
         return self._made("offset")[1].offset
 
+    def _chosen(self, slot: str, given: str | type | object, raw: dict[str, Any]) -> str:
+        """Return a part's name; one of the user's is kept behind a guard."""
+        own, name = own_part(slot, given, raw)
+        if own is not None:
+            self._guards[slot] = Guard(slot, name, own, _CALL_LIMIT_S)
+        return name
+
     def _made(self, asked: str) -> tuple[RangeMap, Placing]:
         if self._core is None or self._place is None:
             raise InputError(f"Map.{asked}: no frame was taken in yet")
@@ -204,8 +216,7 @@ class Map:
             else:
                 used, planes = core.insert_depth(frame.depth, pose, ground), core.planes()
         except CoreError as error:
-            guards = {} if self._own is None else {"world_model": self._own}
-            raise blamed(error, guards) from None
+            raise blamed(error, self._guards) from None
         if not used:
             return Seen(used=False, reason=NOT_TAKEN, planes=planes)
         floors = planes is None or np.isfinite(planes.floor_height).any()
@@ -214,6 +225,7 @@ class Map:
 
     def _begin(self, first: RangeFrame) -> RangeMap:
         """Make the core's map for data like the first frame."""
+        own = self._guards.get("world_model")
         rough = placing(self._data.up, first.world_from_sensor, 1.0)
         sizes = sizing(self._name, self._parameters, (first, rough), self._data.ground)
         parameters = sizes.parameters
@@ -223,10 +235,8 @@ class Map:
             of_robot = load_robot(self.robot).file.navigation.get("stairs", {})
             parameters["stairs"] = {**of_robot, **parameters.get("stairs", {})}
         _, headroom = headroom_of(self._name, parameters, self.robot)
-        core = RangeMap(
-            self._name, settings=json.dumps(parameters), headroom=headroom, model=self._own
-        )
-        if core.needs_surfaces and first.layout == "cloud" and self._own is None:
+        core = RangeMap(self._name, settings=json.dumps(parameters), headroom=headroom, model=own)
+        if core.needs_surfaces and first.layout == "cloud" and own is None:
             raise InputError(
                 f"world_model: found {self._name!r}, which finds its floors in pictures; of "
                 "clouds a map is made by 'elevation' and its like"
@@ -241,6 +251,7 @@ class Map:
                 pool=pooled(camera, self._data.columns),
                 baseline=self._data.baseline,
                 stairs=self.robot is not None,
+                own=self._guards.get("segmenter"),
             )
         self.assumed = sizes.assumed
         self._place = placing(self._data.up, first.world_from_sensor, sizes.cell or 1.0)

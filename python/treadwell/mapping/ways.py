@@ -150,6 +150,8 @@ def _own_way(
     if hasattr(planner, "begin"):
         planner.begin(setup)
     made = planner.plan(*seen, setup.start, setup.goals[0])
+    if made is None:
+        raise InputError("planner: plan() must return a Plan, got None")
     if made.path is None:
         return Way(None, str(made.reason) or "no_path: it said no reason", math.inf, (), None)
     path = np.asarray(made.path)

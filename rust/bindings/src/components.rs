@@ -56,6 +56,15 @@ fn check_within(what: &str, values: impl IntoIterator<Item = f64>, most: f64) ->
     }
 }
 
+/// Refuses nothing where a method of a part of the user's has to return `wanted`.
+fn something(answer: &Bound<'_, PyAny>, of: &str, wanted: &str) -> PyResult<()> {
+    if answer.is_none() {
+        let said = format!("{of} must return {wanted}, got None");
+        return Err(PyValueError::new_err(said));
+    }
+    Ok(())
+}
+
 /// Reads an attribute of what a part of the user's returned. What is missing or of another type is told by its name, with what is
 /// `wanted` there.
 fn attribute<'py, T: FromPyObjectOwned<'py>>(

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use numpy::{PyArray2, PyArrayMethods};
-use pilot::{PilotError, RangeMap, SightNeeds};
+use pilot::{ChosenSegmenter, PilotError, RangeMap, SightNeeds};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use sensing::{PinholeCamera, RangeSensor};
@@ -58,8 +58,9 @@ impl PyRangeMap {
     }
 
     /// Gives the pictures a camera: columns and rows, focal lengths and axis along them, pixels. Surfaces are found by the segmenter of
-    /// that name, in blocks of `pool` x `pool` pixels, as precisely as eyes `baseline` m apart see them. With `stairs`, stairs are looked for.
-    #[pyo3(signature = (size, focal, centre, *, segmenter, pool, baseline, stairs=false))]
+    /// that name, or by `own`, one of the user's, in blocks of `pool` x `pool` pixels, as precisely as eyes `baseline` m apart see them. With
+    /// `stairs`, stairs are looked for.
+    #[pyo3(signature = (size, focal, centre, *, segmenter, pool, baseline, stairs=false, own=None))]
     #[expect(clippy::too_many_arguments, reason = "one argument of Python's each")]
     fn set_camera(
         &mut self,
@@ -71,6 +72,7 @@ impl PyRangeMap {
         pool: usize,
         baseline: f64,
         stairs: bool,
+        own: Option<Py<PyAny>>,
     ) -> PyResult<()> {
         let positive = |value: &f64| value.is_finite() && *value > 0.0;
         let axis = centre.iter().all(|px| px.is_finite());
@@ -84,7 +86,9 @@ impl PyRangeMap {
             centre_px: centre,
         };
         let needs = SightNeeds {
-            segmenter,
+            segmenter: own.map_or(ChosenSegmenter::Named(segmenter), |object| {
+                ChosenSegmenter::Own(components::segmenter(object))
+            }),
             pool,
             baseline_m: baseline,
             stairs,

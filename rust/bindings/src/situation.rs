@@ -2,7 +2,7 @@
 
 use behaviour::Situation;
 use mapping::FloorView;
-use numpy::{PyArray2, PyArrayMethods, ToPyArray};
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, ToPyArray};
 use planning::Goal;
 use pyo3::prelude::*;
 
@@ -66,7 +66,71 @@ impl PyScan {
             .reshape([camera.height, camera.width])
     }
 
-    /// Focal length, pixels.
+    /// (h, w) float32: depths along the optical axis, m; NaN where nothing was seen.
+    #[getter]
+    fn depth<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let camera = self.0.camera;
+        self.0
+            .depths_m()
+            .collect::<Vec<_>>()
+            .into_pyarray(py)
+            .reshape([camera.height, camera.width])
+    }
+
+    /// (h, w, 3) float32: the points of the pixels in the camera's frame, m: x right, y down, z forward; NaN where nothing was seen.
+    #[getter]
+    fn points_in_camera<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let camera = self.0.camera;
+        let points: Vec<[f32; 3]> = (self.0.depths_m().enumerate())
+            .map(|(at, depth_m)| {
+                camera
+                    .ray(at % camera.width, at / camera.width)
+                    .map(|along| (along * f64::from(depth_m)) as f32)
+            })
+            .collect();
+        points
+            .into_flattened()
+            .into_pyarray(py)
+            .reshape([camera.height, camera.width, 3])
+    }
+
+    /// Columns of the picture.
+    #[getter]
+    fn width(&self) -> usize {
+        self.0.camera.width
+    }
+
+    /// Rows of the picture.
+    #[getter]
+    fn height(&self) -> usize {
+        self.0.camera.height
+    }
+
+    /// Focal length along the columns, pixels.
+    #[getter]
+    fn fx(&self) -> f64 {
+        self.0.camera.focal_px
+    }
+
+    /// Focal length along the rows, pixels.
+    #[getter]
+    fn fy(&self) -> f64 {
+        self.0.camera.focal_px
+    }
+
+    /// Column at which the optical axis meets the picture, pixels; pixel centres are at whole numbers.
+    #[getter]
+    fn cx(&self) -> f64 {
+        self.0.camera.principal_point_px().0
+    }
+
+    /// Row at which the optical axis meets the picture, pixels.
+    #[getter]
+    fn cy(&self) -> f64 {
+        self.0.camera.principal_point_px().1
+    }
+
+    /// Focal length of both, pixels.
     #[getter]
     fn focal(&self) -> f64 {
         self.0.camera.focal_px

@@ -22,7 +22,7 @@ pub use parts::{
     components,
 };
 pub use perception::{Perception, PerceptionConfig, PerceptionTuning};
-pub use range_map::{RangeMap, SightNeeds};
+pub use range_map::{ChosenSegmenter, RangeMap, SightNeeds};
 pub use registry::Components;
 pub use settings::{GoalSettings, Navigation, Settings, StartSettings};
 pub use step_limits::step_limits;

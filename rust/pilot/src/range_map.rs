@@ -41,11 +41,18 @@ impl SurfaceSight {
     }
 }
 
+/// What finds the surfaces.
+pub enum ChosenSegmenter<'a> {
+    /// One of the list, by its name.
+    Named(&'a str),
+    /// One that is in no list.
+    Own(Box<dyn Segmenter>),
+}
+
 /// How surfaces are found in pictures.
-#[derive(Debug, Clone, Copy)]
 pub struct SightNeeds<'a> {
-    /// The segmenter's name.
-    pub segmenter: &'a str,
+    /// The segmenter.
+    pub segmenter: ChosenSegmenter<'a>,
     /// Pixels a side of the picture that are one to the segmenter.
     pub pool: usize,
     /// Depths are taken to be as precise as eyes so far apart see them, m.
@@ -101,10 +108,14 @@ impl RangeMap {
             })
             .transpose()?;
         let [width, height] = camera.size_px;
+        let segmenter = match needs.segmenter {
+            ChosenSegmenter::Named(name) => SEGMENTERS.find(name)?(&made)?,
+            ChosenSegmenter::Own(segmenter) => segmenter,
+        };
         self.sight = Some(SurfaceSight {
             camera,
             pixels: camera.centred_pixels(),
-            segmenter: SEGMENTERS.find(needs.segmenter)?(&made)?,
+            segmenter,
             planes: Planes::new(scan.disparity_px.len()),
             recognizer,
             scan,
@@ -232,7 +243,7 @@ mod tests {
             centre_px: [18.0, 16.0],
         };
         let needs = SightNeeds {
-            segmenter: "scan_line",
+            segmenter: ChosenSegmenter::Named("scan_line"),
             pool: 1,
             baseline_m: 0.075,
             stairs: false,

@@ -74,6 +74,12 @@ impl Scan {
         }
     }
 
+    /// Depths along the optical axis, m, row by row; NaN where nothing was seen.
+    pub fn depths_m(&self) -> impl ExactSizeIterator<Item = f32> {
+        let scale = (self.camera.focal_px * self.camera.baseline_m) as f32;
+        self.disparity_px.iter().map(move |&px| scale / px)
+    }
+
     /// Reads a depth image. Depths that are not positive and finite count as not seen. Allocates nothing.
     pub fn read(
         &mut self,

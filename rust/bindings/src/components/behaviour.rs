@@ -8,7 +8,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::intern;
 use pyo3::prelude::*;
 
-use super::{attribute, check_within, sentence};
+use super::{attribute, check_within, sentence, something};
 use crate::situation::PySituation;
 use crate::stairs::{FlatFootstep, footstep};
 
@@ -60,6 +60,7 @@ impl PythonBehaviour {
             .object
             .bind(py)
             .call_method1(intern!(py, "next"), argument)?;
+        something(&answer, OF, "a Decision")?;
         let gaze = attribute(&answer, (OF, "gaze"), "(pan, down), rad")?;
         let [pan_rad, down_rad]: [f64; 2] = gaze;
         check_within("gaze", [pan_rad, down_rad], LARGEST)?;

@@ -9,7 +9,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use stairs::Staircase;
 
-use super::{FARTHEST_M, attribute, check_within, forget_if, sentence};
+use super::{FARTHEST_M, attribute, check_within, forget_if, sentence, something};
 use crate::floor_view::PyFloorView;
 use crate::products::flat;
 use crate::situation::PyGoal;
@@ -50,6 +50,7 @@ impl PythonPlanner {
         let object = self.object.bind(py);
         forget_if(&mut self.elsewhere, object)?;
         let plan = object.call_method1(intern!(py, "plan"), arguments)?;
+        something(&plan, "plan()", "a Plan")?;
         let replanned = attribute(&plan, ("plan()", "replanned"), "bool")?;
         let path: Option<PyReadonlyArray2<'_, f64>> =
             attribute(&plan, ("plan()", "path"), "float64 (n, 2) or None")?;

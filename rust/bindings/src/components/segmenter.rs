@@ -1,7 +1,7 @@
 //! A segmenter of the user's: it labels pixels and corrects the camera's pose; planes are fitted here.
 
-use geometry::{Plane, Point};
-use nalgebra::{Matrix3, Point3, SymmetricEigen, Unit, Vector3};
+use geometry::{Outline, Plane, Point};
+use nalgebra::{Matrix3, Point2, Point3, SymmetricEigen, Unit, Vector3};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use segmentation::{PlaneRegion, Planes, SegmentError, Segmenter};
 use sensing::Scan;
 
-use super::{FARTHEST_M, attribute, check_within, sentence};
+use super::{FARTHEST_M, attribute, check_within, sentence, something};
 use crate::pose::rigid;
 use crate::situation::PyScan;
 
@@ -36,6 +36,7 @@ impl Segmenter for PythonSegmenter {
 
 fn read_segmentation(answer: &Bound<'_, PyAny>, scan: &Scan, planes: &mut Planes) -> PyResult<()> {
     const OF: &str = "segment()";
+    something(answer, OF, "a Segmentation")?;
     let labels: PyReadonlyArray1<'_, u16> = attribute(answer, (OF, "labels"), "uint16 (pixels,)")?;
     let heights: Vec<Option<f64>> =
         attribute(answer, (OF, "floor_heights"), "a list of float m or None")?;
@@ -65,6 +66,8 @@ fn read_segmentation(answer: &Bound<'_, PyAny>, scan: &Scan, planes: &mut Planes
     }
     planes.robot_from_camera = rigid(&pose)?;
     planes.exposure_ns = scan.exposure_ns;
+    // Each point lies on its pixel's line of sight: models see through what lies before it.
+    planes.camera = Some(scan.camera);
     planes.ground = ground.filter(|&ground| ground < heights.len());
     planes.reliable = attribute(answer, (OF, "reliable"), "bool")?;
     for (slot, label) in planes.labels.iter_mut().zip(labels) {
@@ -117,6 +120,10 @@ fn fit(planes: &Planes, label: u16, floor_height_m: Option<f64>) -> PlaneRegion 
     } else {
         normal
     };
+    let boundary = floor_height_m.and_then(|_| {
+        let corners: Vec<_> = points().map(|point| Point2::from(point.xy())).collect();
+        Outline::hull(&corners).ok()
+    });
     PlaneRegion {
         support,
         mean: Point::wrap(Point3::from(mean)),
@@ -124,7 +131,7 @@ fn fit(planes: &Planes, label: u16, floor_height_m: Option<f64>) -> PlaneRegion 
             normal,
             distance_m: normal.dot(&mean),
         },
-        boundary: None,
+        boundary,
         floor_height_m,
         roughness: None,
     }

@@ -12,7 +12,7 @@ use robot::{Body, Description};
 use sensing::TICK_S;
 use walking::{FeltGait, GaitConfig, HeadControl, JointTargets, WalkError, Walker, WalkerSenses};
 
-use super::{check_within, sentence};
+use super::{check_within, sentence, something};
 use crate::error::bad_setting;
 use crate::observation::{VECTOR, field};
 use crate::stairs::PyStepping;
@@ -133,6 +133,7 @@ fn odd(method: &str, what: &str, answer: &Bound<'_, PyAny>) -> PyErr {
 
 /// Reads a `treadwell.protocols.JointTargets`.
 fn read(answer: &Bound<'_, PyAny>, into: &mut JointTargets) -> PyResult<()> {
+    something(answer, "step()", "JointTargets")?;
     let py = answer.py();
     for (name, values) in [
         (intern!(py, "position"), &mut into.positions_rad),

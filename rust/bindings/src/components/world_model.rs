@@ -10,7 +10,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use segmentation::Planes;
 
-use super::{FARTHEST_M, attribute, check_within, forget_if, sentence, unlike};
+use super::{FARTHEST_M, attribute, check_within, forget_if, sentence, something, unlike};
 use crate::products::{PyPlanes, flat};
 
 struct PythonWorldModel {
@@ -74,6 +74,7 @@ fn read_lattice(object: &Bound<'_, PyAny>) -> PyResult<Lattice> {
 }
 
 pub(crate) fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
+    something(object, "view()", "a FloorMap")?;
     let kind: PyReadonlyArray2<'_, u8> =
         attribute(object, ("view()", "kind"), "uint8 (rows, cols)")?;
     let height: PyReadonlyArray2<'_, f32> =
