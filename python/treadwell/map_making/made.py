@@ -50,3 +50,17 @@ def writing(folder: Path) -> Iterator[None]:
 def stem(path: Path) -> str:
     """Return what a source is called: its name without endings."""
     return path.resolve().name.split(".")[0] or "source"
+
+
+def title_of(name: str, world_model: str, frames: tuple[int, int], cell: float) -> str:
+    """Return what stands above a map's picture, two lines.
+
+    Args:
+        name: what was mapped.
+        world_model: by what.
+        frames: how many were used, and how many there were.
+        cell: m, side of a cell.
+    """
+    used, every = frames
+    told = f"{used} of {every} frame{'s' * (every != 1)}"
+    return f"{name} · {world_model} · {told}\ncells of {1e3 * cell:g} mm"

@@ -12,7 +12,7 @@ from treadwell.errors import InputError
 from treadwell.files import write_text
 from treadwell.interruption import Interruption
 from treadwell.map_making.landmarks import make_landmark_map
-from treadwell.map_making.made import FrameProgress, MadeMap, stem, writing
+from treadwell.map_making.made import FrameProgress, MadeMap, stem, title_of, writing
 from treadwell.map_making.mapper import Mapper
 from treadwell.map_making.placing import sensed
 from treadwell.map_making.plan_view import Seen, plan_arrays
@@ -231,9 +231,12 @@ class _Making:
         # Late: matplotlib takes its time.
         from treadwell.map_making.picture import draw_map
 
-        used = f"{result.frames_used} of {result.frames} frame{'s' * (result.frames != 1)}"
-        title = f"{stem(Path(result.source.path))} · {result.world_model} · {used}"
-        title += f"\ncells of {1e3 * result.cell:g} mm"
+        title = title_of(
+            stem(Path(result.source.path)),
+            result.world_model,
+            (result.frames_used, result.frames),
+            result.cell,
+        )
         if result.lines is not None:
             title += f" · {result.lines.count} lines hold {result.lines.held:.1%} of the points"
         if result.places is not None:

@@ -118,14 +118,7 @@ class Mapper:
         found = self._memory.map() if self._plan is None else self._plan.map()
         if self._standing_out is not None:
             found = self._standing_out.over(found)
-        x, y, z = self.place.offset.tolist()
-        return RememberedMap(
-            (found.origin[0] + x, found.origin[1] + y),
-            found.cell or self.sizes.cell,
-            found.kind,
-            (found.height + np.float32(z)).astype(np.float32),
-            found.sightings,
-        )
+        return placed_map(found, self.place.offset, self.sizes.cell)
 
     def probability(self) -> NDArray[np.float32] | None:
         """Return how probably each cell of a plane is occupied, (rows, cols); NaN where unknown."""
@@ -145,9 +138,7 @@ class Mapper:
 
     def voxels(self) -> NDArray[np.float32]:
         """Return middle and side of each occupied cube, (n, 4) m."""
-        middles, sides = self._core.occupied()
-        moved = middles.reshape(-1, 3) + self.place.offset
-        return np.column_stack([moved, sides]).astype(np.float32)
+        return placed_cubes(self._core, self.place.offset)
 
     def surface(self) -> SurfaceMesh | None:
         """Return the surface as triangles where the model keeps it, with what it looks like."""
@@ -215,3 +206,28 @@ class Mapper:
                 f"--world-model: found {named}; a map is made by the models that are built in"
             )
         return named
+
+
+def placed_map(found: RememberedMap, offset: Floats, cell: float = 0.0) -> RememberedMap:
+    """Return a map of the core's in the world whose z is up.
+
+    Args:
+        found: the map.
+        offset: (3,) m, its origin there.
+        cell: m, of its cells where it has none.
+    """
+    x, y, z = offset.tolist()
+    return RememberedMap(
+        (found.origin[0] + x, found.origin[1] + y),
+        found.cell or cell,
+        found.kind,
+        (found.height + np.float32(z)).astype(np.float32),
+        found.sightings,
+    )
+
+
+def placed_cubes(core: RangeMap, offset: Floats) -> NDArray[np.float32]:
+    """Return middle and side of each occupied cube of a map, (n, 4) m, in that world."""
+    middles, sides = core.occupied()
+    there = middles.reshape(-1, 3) + offset
+    return np.column_stack([there, sides]).astype(np.float32)

@@ -42,6 +42,8 @@ class MapRecording:
             self._stream.save(path)
         except OSError as error:
             raise RecordingError(f"{path}: {write_fault(path, error)}") from error
+        except RuntimeError as error:  # what rerun makes of the system's word
+            raise RecordingError(f"{path}: cannot be written: {error}") from error
         self._stream.send_recording_name(name)
         self._begin_s: float | None = None
         self._stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)

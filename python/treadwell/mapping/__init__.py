@@ -6,6 +6,7 @@
 >>> world = mapping.Map("fog", camera, robot="qrio", overrides={"fog.cell": 0.02})
 >>> for depth, world_from_camera in frames:             # (h, w) m, NaN or 0 unseen; (4, 4)
 ...     seen = world.insert(depth, world_from_camera)   # seen.used, seen.reason, seen.planes
+>>> world.save_picture("map.png"), world.save_recording("map.rrd")
 >>> view = world.view()                                 # origin, cell, kind, height, sightings
 >>> stairs = mapping.find_stairs(world)
 >>> way = mapping.plan(world, start=(0, 0, 0), goal=(2, 0))
@@ -18,11 +19,12 @@
 ...     step.side, step.x, step.y, step.yaw, step.height
 """
 
-from treadwell._core import FloorView
+from treadwell._core import FloorView, Octree
 from treadwell.footstep_plan import FootstepPlan, PlannedFootstep
 from treadwell.mapping.camera import Camera
 from treadwell.mapping.footsteps import plan_footsteps
-from treadwell.mapping.map import Map, Seen
+from treadwell.mapping.kept_frames import Seen
+from treadwell.mapping.map import Map
 from treadwell.mapping.monte_carlo import MonteCarlo, Spread
 from treadwell.mapping.stairs import FoundStair, find_stairs
 from treadwell.mapping.view import floor_view
@@ -35,6 +37,7 @@ __all__ = [
     "FoundStair",
     "Map",
     "MonteCarlo",
+    "Octree",
     "PlannedFootstep",
     "Seen",
     "Spread",

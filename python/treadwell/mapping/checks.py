@@ -47,6 +47,18 @@ def depth_picture(depth: ArrayLike, camera: PinholeCamera) -> NDArray[np.float32
     return np.ascontiguousarray(np.where(seen, given, np.nan), np.float32)
 
 
+def cloud_points(points: ArrayLike) -> NDArray[np.float32]:
+    """Return points as the core takes them, (n, 3) m.
+
+    Raises:
+        InputError: they are none.
+    """
+    given = np.asarray(points)
+    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
+        raise InputError(f"points must be numbers (n, 3), got {given.dtype} {given.shape}")
+    return np.ascontiguousarray(given, np.float32)
+
+
 def pose_matrix(pose: ArrayLike, name: str) -> Floats:
     """Return a pose as (4, 4) float64.
 

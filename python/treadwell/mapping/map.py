@@ -1,51 +1,37 @@
 """A map of range pictures and clouds of one's own, whose poses are known."""
 
 import json
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from treadwell._core import FloorView, Planes, RangeMap, Staircase
+from treadwell._core import FloorView, RangeMap, Staircase
 from treadwell.errors import CoreError, InputError
 from treadwell.guard import Guard, blamed
 from treadwell.map_making.headroom import headroom_of
-from treadwell.map_making.mapper import NOT_TAKEN, NOTHING_SEEN
+from treadwell.map_making.made import title_of
+from treadwell.map_making.mapper import NOT_TAKEN, NOTHING_SEEN, placed_cubes
 from treadwell.map_making.placing import Placing, ground_below, placing, sensed
 from treadwell.map_making.request import MapTable
 from treadwell.map_making.sizing import pooled, sizing
 from treadwell.mapping.camera import Camera
 from treadwell.mapping.checks import (
     checked_tables,
+    cloud_points,
     depth_picture,
     own_part,
     pose_matrix,
     raw_tables,
 )
+from treadwell.mapping.kept_frames import KeptFrames, Seen
 from treadwell.scenario.model import Navigation
 from treadwell.scenario.overrides import Overrides
 from treadwell.sources.frame import Floats, RangeFrame
 
 NO_SURFACE: Final = "no level surface was found"
 _CALL_LIMIT_S: Final = Navigation().call_limit
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Seen:
-    """What became of one frame.
-
-    Attributes:
-        used: whether the map took it in.
-        reason: why it was not used, or why nothing came of it; None where all is well.
-        planes: the surfaces that were found in a picture, heights above the lowest ground in it;
-            None of a cloud, and of a world model that has no use for surfaces.
-    """
-
-    used: bool
-    reason: str | None
-    planes: Planes | None
 
 
 class Map:
@@ -106,11 +92,14 @@ class Map:
             _, headroom = headroom_of(self._name, self._parameters, self.robot)
             RangeMap(self._name, settings=json.dumps(self._parameters), headroom=headroom)
         self._data = MapTable()
+        self._kept = KeptFrames()
         self._core: RangeMap | None = None
         self._place: Placing | None = None
         self._camera_set = False
 
-    def insert(self, depth: ArrayLike, world_from_camera: ArrayLike) -> Seen:
+    def insert(
+        self, depth: ArrayLike, world_from_camera: ArrayLike, *, time: float | None = None
+    ) -> Seen:
         """Take in a depth picture of the camera.
 
         Args:
@@ -118,6 +107,7 @@ class Map:
                 nothing was seen.
             world_from_camera: (4, 4) pose; of the camera's frame z is the optical axis, forward,
                 x right, y down.
+            time: s, when it was taken, for the recording; None: as many as there were frames.
 
         Raises:
             InputError: no picture of the camera, or no pose.
@@ -127,25 +117,27 @@ class Map:
             raise InputError("Map.insert: the map was made without a camera: Map(..., camera)")
         picture = depth_picture(depth, self.camera)
         pose = pose_matrix(world_from_camera, "world_from_camera")
-        return self._insert(RangeFrame(0.0, pose, self.camera, picture, None, "picture"))
+        when = self._kept.taken if time is None else time
+        return self._insert(RangeFrame(when, pose, self.camera, picture, None, "picture"))
 
-    def insert_points(self, points: ArrayLike, world_from_sensor: ArrayLike) -> Seen:
+    def insert_points(
+        self, points: ArrayLike, world_from_sensor: ArrayLike, *, time: float | None = None
+    ) -> Seen:
         """Take in a cloud, all of it seen from the sensor's origin.
 
         Args:
             points: (n, 3) m in the sensor's frame, of any float type; rows with NaN are left out.
             world_from_sensor: (4, 4) pose.
+            time: s, when it was taken, for the recording; None: as many as there were frames.
 
         Raises:
             InputError: no cloud or no pose; or the world model finds its floors in pictures.
             CoreError: a part of the user's failed; the map is as it was.
         """
-        given = np.asarray(points)
-        if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "fiu":
-            raise InputError(f"points must be numbers (n, 3), got {given.dtype} {given.shape}")
+        cloud = cloud_points(points)
         pose = pose_matrix(world_from_sensor, "world_from_sensor")
-        cloud = np.ascontiguousarray(given, np.float32)
-        return self._insert(RangeFrame(0.0, pose, None, None, cloud, "cloud"))
+        when = self._kept.taken if time is None else time
+        return self._insert(RangeFrame(when, pose, None, None, cloud, "cloud"))
 
     def view(self) -> FloorView:
         """Return the map: `origin`, `cell`, `kind`, `height`, `sightings`; a copy.
@@ -167,9 +159,43 @@ class Map:
     def voxels(self) -> NDArray[np.float32]:
         """Return middle and side of each occupied cube, (n, 4) m, of a model that keeps such."""
         core, place = self._made("voxels")
-        middles, sides = core.occupied()
-        moved = middles.reshape(-1, 3) + place.offset
-        return np.column_stack([moved, sides]).astype(np.float32)
+        return placed_cubes(core, place.offset)
+
+    def save_picture(self, path: str | Path, name: str = "map") -> Path:
+        """Draw the map from above, with the way of the sensor, as `treadwell map` does.
+
+        It shows all that was seen, also what a window around the sensor left behind.
+
+        Args:
+            path: of the PNG file.
+            name: what was mapped.
+
+        Raises:
+            InputError: no frame was used yet.
+            RecordingError: the file cannot be written.
+        """
+        core, place = self._made("save_picture", used=True)
+        frames = (len(self._kept.poses), self._kept.taken)
+        title = title_of(name, self._name, frames, core.view().cell)
+        self._kept.draw(Path(path), title, place.offset)
+        return Path(path)
+
+    def save_recording(self, path: str | Path, name: str = "map") -> Path:
+        """Write what the frames saw, the sensor and the map, to be opened with `rerun`.
+
+        Of more than 500 frames it has evenly so many, each with some of its points.
+
+        Args:
+            path: of the file, `.rrd`.
+            name: what was mapped.
+
+        Raises:
+            InputError: no frame was used yet.
+            RecordingError: the file cannot be written.
+        """
+        core, place = self._made("save_recording", used=True)
+        self._kept.record(Path(path), name, core, place.offset)
+        return Path(path)
 
     @property
     def core(self) -> RangeMap:
@@ -196,14 +222,17 @@ class Map:
             self._guards[slot] = Guard(slot, name, own, _CALL_LIMIT_S)
         return name
 
-    def _made(self, asked: str) -> tuple[RangeMap, Placing]:
+    def _made(self, asked: str, *, used: bool = False) -> tuple[RangeMap, Placing]:
         if self._core is None or self._place is None:
             raise InputError(f"Map.{asked}: no frame was taken in yet")
+        if used and not self._kept.poses:
+            raise InputError(f"Map.{asked}: none of {self._kept.taken} frames was used")
         return self._core, self._place
 
     def _insert(self, frame: RangeFrame) -> Seen:
         core = self._core or self._begin(frame)
         assert self._place is not None
+        self._kept.taken += 1
         some = sensed(frame)
         if not len(some):
             return Seen(used=False, reason=NOTHING_SEEN, planes=None)
@@ -219,6 +248,7 @@ class Map:
             raise blamed(error, self._guards) from None
         if not used:
             return Seen(used=False, reason=NOT_TAKEN, planes=planes)
+        self._kept.insert(frame.time, pose, some, core.view())
         floors = planes is None or np.isfinite(planes.floor_height).any()
         idle = core.needs_surfaces and not floors
         return Seen(used=True, reason=NO_SURFACE if idle else None, planes=planes)
