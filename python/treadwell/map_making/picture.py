@@ -9,11 +9,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, MaxNLocator
+from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
 from treadwell.files import whole_file
 from treadwell.map_memory import FLOOR, UNKNOWN, RememberedMap
-from treadwell.recording.map_picture import draw_cells, height_span
+from treadwell.recording.map_picture import LABELS_INCHES, draw_cells, height_span
 
 _OBSTACLE: Final = (0.09, 0.09, 0.11)
 _UNKNOWN: Final = (0.80, 0.80, 0.82)
@@ -71,7 +72,9 @@ def draw_map(path: Path, title: str, found: RememberedMap, way: NDArray[np.float
     axes.legend(
         handles=[*marks, *patches],
         loc="upper center",
-        bbox_to_anchor=(0.5, -0.1),
+        bbox_to_anchor=(0.5, 0.0),
+        bbox_transform=axes.transAxes
+        + ScaledTranslation(0.0, -LABELS_INCHES, figure.dpi_scale_trans),
         ncols=3,
         frameon=False,
         fontsize=8,

@@ -36,7 +36,7 @@ _TRUE_COURSE: Final = "true course"
 _LEAST_SPAN: Final = 0.02
 """Metres that the colours span at least, to either side of the middle."""
 _MARGIN: Final = 0.25
-_LABELS_INCHES: Final = 0.45
+LABELS_INCHES: Final = 0.45
 """Room below the map for the numbers and the name of its axis, whatever the map's height."""
 
 
@@ -136,7 +136,7 @@ def draw_map(
         loc="upper center",
         bbox_to_anchor=(0.5, 0.0),
         bbox_transform=axes.transAxes
-        + ScaledTranslation(0.0, -_LABELS_INCHES, figure.dpi_scale_trans),
+        + ScaledTranslation(0.0, -LABELS_INCHES, figure.dpi_scale_trans),
         ncols=6,
         frameon=True,
         facecolor="#b9bcc4",
