@@ -16,7 +16,7 @@ from treadwell.cli.check import checked
 from treadwell.cli.list import listed
 from treadwell.cli.output import guarded
 from treadwell.cli.progress import ProgressLine, line
-from treadwell.components import COMPONENTS
+from treadwell.components import COMPONENTS, PAPERS
 from treadwell.errors import InputError, TreadwellError
 from treadwell.scenario.loading import scenario_names
 from treadwell.scenario.model import Scenario
@@ -40,6 +40,65 @@ def test_check_as_json_writes_json_and_nothing_else(capsys: pytest.CaptureFixtur
     assert document == json.loads(json.dumps(checked(
         "slalom", robot=None, seed=3, settings=["goal.radius=0.2"])))  # fmt: skip
     assert captured.err == ""
+
+
+@pytest.mark.parametrize(
+    ("setting", "told"),
+    [
+        ("navigation.fog.cel=1", "--set navigation.fog.cel: unknown field"),
+        ("navigation.fog.cell=-1", "--set navigation.fog.cell must be from"),
+        ("foo.bar=1", "--set foo: unknown key"),
+        ("start.yaw=abc", '--set start.yaw: found "abc"'),
+        ("course.x.y=1", '--set course.x.y: found "x"'),
+    ],
+)
+def test_what_is_wrong_with_a_setting_is_not_the_files_fault(
+    setting: str, told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert execute(["check", "doorway", "--set", setting]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"error: {told}")
+    assert said.rstrip().endswith("doorway.toml)")
+
+
+def test_what_is_wrong_with_a_file_is_told_so_whatever_is_set(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "x.toml"
+    path.write_text(f"{HEAD}[navigation.fog]\ncel = 1\n[foo]\nx = 1\n")
+    assert execute(["check", str(path), "--set", "navigation.fog.cell=0.05"]) == 2
+    said = capsys.readouterr().err
+    assert f"error: {path}: " in said
+    assert "--set" not in said
+
+
+def test_a_word_of_a_list_that_is_misspelt_has_the_nearest(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    for arguments, near in (
+        (["export", "x", "--to", "octmap"], "octomap"),
+        (["schema", "scenaro"], "scenario"),
+    ):
+        assert execute(arguments) == 2
+        said = capsys.readouterr().err
+        assert f"did you mean '{near}'?" in said
+        assert "Value error" not in said
+
+
+def test_lists_with_papers_say_which(capsys: pytest.CaptureFixture[str]) -> None:
+    assert execute(["list", "components"]) == 0
+    captured = capsys.readouterr()
+    assert "Gutmann, Fukuchi and Fujita 2005 (000)" in captured.out
+    page = Path(__file__).resolve().parent.parent / "docs" / "papers" / "README.md"
+    listed_there = page.read_text().replace("*", "").replace("J.-S. ", "")
+    for number, paper in PAPERS.items():
+        assert f"{number}: {paper}" in captured.err
+        assert f"| {number} |" in listed_there
+        assert paper.split(": ", 1)[1].split(", in: ")[0] in listed_there
+    assert execute(["list", "parameters", "fog"]) == 0
+    told = capsys.readouterr().err
+    assert "000: Gutmann" in told
+    assert "004: " not in told
 
 
 @pytest.mark.parametrize("what", ["scenarios", "robots", "components"])

@@ -167,7 +167,9 @@ def test_a_cloud_of_ten_million_points_takes_two_gigabytes_at_most(tmp_path: Pat
     assert cells["floor"] > 0.99 * (100 / 0.2) ** 2
 
 
-def test_the_axis_that_points_up_is_told_and_turned(pictures: Path, tmp_path: Path) -> None:
+def test_the_axis_that_points_up_is_told_and_turned(
+    pictures: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     """The same pictures in a world of which y points down, as a camera's does."""
     turn = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]])
     pose = camera_pose()
@@ -177,6 +179,10 @@ def test_the_axis_that_points_up_is_told_and_turned(pictures: Path, tmp_path: Pa
     (pictures / "poses.tum").write_text("".join(f"{time} {line}\n" for time in range(4)))
     wrong = mapped(pictures, tmp_path / "wrong", world_model="elevation")
     assert any("--set map.up=-y" in note for note in wrong.result.notes)
+    out = tmp_path / "by_command"
+    assert execute(["map", str(pictures), "--out", str(out), "--no-record"]) == 0
+    told = capsys.readouterr().err
+    assert "warning:   the pictures were taken with the world's -y up" in told
     right = mapped(pictures, tmp_path / "right", "map.up=-y", world_model="elevation")
     assert not right.result.notes
     floor = right.map.height[right.map.kind == FLOOR]

@@ -26,6 +26,17 @@ SOURCES: Final[dict[str, dict[str, str | None]]] = {
 }
 """Slot -> name -> the paper that it is of; None where it is of no paper."""
 
+PAPERS: Final = {
+    "000": "Gutmann, Fukuchi, Fujita: A Floor and Obstacle Height Map for 3D Navigation of a "
+    "Humanoid Robot, ICRA 2005",
+    "002": "Maier, Hornung, Bennewitz: Real-Time Navigation in 3D Environments Based on Depth "
+    "Camera Data, Humanoids 2012",
+    "003": "Gutmann, Fukuchi, Fujita: Stair Climbing for Humanoid Robots Using Stereo Vision, "
+    "IROS 2004",
+    "004": "Burgard, Hebert: World Modeling, in: Springer Handbook of Robotics, chapter 36, 2008",
+}
+"""Number of a publication in sources and comments -> what it is."""
+
 RENAMED: Final[dict[str, str]] = {"matching": "scan_match"}
 """What a component and its table were called -> what they are called."""
 

@@ -16,7 +16,7 @@ from treadwell.plugins import (
     refuse_user_code,
 )
 from treadwell.protocols import Setup
-from treadwell.scenario.messages import nearest
+from treadwell.scenario.messages import nearest, report
 from treadwell.scenario.model import Navigation, Scenario
 
 if TYPE_CHECKING:
@@ -246,5 +246,5 @@ def build_core(
         unknown = "unknown field" in str(error) and len(words) > 1
         hint = nearest(words[0], words[1:]) if unknown else ""
         of_robot = str(error).startswith(("walker: ", "robot: "))
-        where = f"robot {scenario.robot}" if of_robot else scenario.path or scenario.name
-        raise InputError(f"{where}: {error}{hint}") from None
+        where = f"robot {scenario.robot}" if of_robot else str(scenario.path or scenario.name)
+        raise InputError(report(where, [f"{error}{hint}"], given=scenario.set_keys)) from None

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
 
-from treadwell.cli.output import write_table
+from treadwell.cli.output import write_message, write_table
 from treadwell.errors import InputError, TreadwellError
 
 PARAMETERS: Final = "parameters"
@@ -71,12 +71,13 @@ def show(document: Mapping[str, Any]) -> None:
     """Write what `listed` returned as tables."""
     for kind, entries in document.items():
         if kind == "components":
-            triples = [
-                (slot, name, text)
+            rows = [
+                (slot, name, text, _paper(slot, name))
                 for slot, names in entries.items()
                 for name, text in names.items()
             ]
-            write_table(kind, ("slot", "name", "what it is"), triples)
+            write_table(kind, ("slot", "name", "what it is", "source"), rows)
+            _name_papers(rows)
         elif kind == CASES:
             lines = [
                 (each["name"], each["scenario"], f"{each['share']:g}", ", ".join(each["settings"]))
@@ -91,13 +92,34 @@ def show(document: Mapping[str, Any]) -> None:
         elif kind == PARAMETERS:
             header = ("key", "default", "unit", "allowed", "what it means", "source")
             fields = ("key", "default", "unit", "bounds", "meaning", "source")
-            rows = [[_shown(entry[field]) for field in fields] for entry in entries]
-            write_table(kind, header, rows)
+            keys = [tuple(_shown(entry[field]) for field in fields) for entry in entries]
+            write_table(kind, header, keys)
+            _name_papers(keys)
         elif kind in WITHOUT_KIND:
             pairs = [(entry["name"], entry["description"]) for entry in entries]
             write_table(kind, ("name", "what it is"), pairs)
         else:
-            write_table(kind, ("name", "what it is"), list(entries.items()))
+            slot = kind.removesuffix("s")
+            parts = [(name, text, _paper(slot, name)) for name, text in entries.items()]
+            write_table(kind, ("name", "what it is", "source"), parts)
+            _name_papers(parts)
+
+
+def _paper(slot: str, name: str) -> str:
+    """Return what a component is after, nothing where that is nobody's paper."""
+    from treadwell.components import SOURCES
+
+    return SOURCES[slot].get(name) or ""
+
+
+def _name_papers(rows: Sequence[tuple[str, ...]]) -> None:
+    """Say which papers the numbers in a table's last column mean."""
+    from treadwell.components import PAPERS
+
+    sources = " ".join(row[-1] for row in rows)
+    for number, paper in PAPERS.items():
+        if number in sources:
+            write_message(f"{number}: {paper}")
 
 
 def _scenarios() -> list[dict[str, str]]:

@@ -106,8 +106,10 @@ def map_(  # noqa: PLR0913 - one an option
         write_json(result.model_dump(mode="json", by_alias=True))
     else:
         _show(result)
+    # Of a map without floor they say what went wrong.
+    word = "warning:" if result.cells.floor == 0 and result.landmarks is None else "note:"
     for note in result.notes:
-        write_message(f"note:      {note}")
+        write_message(f"{word:10} {note}")
     write_message(f"map:       {made.folder / 'map.png'}")
     if record:
         write_message(f"recording: treadwell inspect {made.folder}")

@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import re
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
@@ -113,7 +114,7 @@ def _verdict(error: Exception) -> tuple[str, int]:
     """Return the message and the exit status that an error means."""
     usage = getattr(error, "format_message", None)
     if usage is not None and getattr(error, "exit_code", None) == BAD_INPUT:
-        return str(usage()), BAD_INPUT
+        return with_nearest(str(usage())), BAD_INPUT
     if isinstance(error, TreadwellError):
         return str(error), BAD_INPUT if isinstance(error, InputError) else ERROR
     text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
@@ -122,6 +123,18 @@ def _verdict(error: Exception) -> tuple[str, int]:
     elif not isinstance(error, OSError | MemoryError):
         text += f"\n(this is a fault of treadwell; set {SHOW_TRACEBACK}=1 to see where)"
     return text, ERROR
+
+
+def with_nearest(message: str) -> str:
+    """Return what the command line's parser says of a word, with the nearest that it takes."""
+    message = message.replace("Value error, ", "")
+    found = re.search(r"'([^']*)' is not one of ('.*')\.$", message)
+    if found is None:
+        return message
+    from treadwell.scenario.messages import nearest
+
+    near = nearest(found[1], re.findall(r"'([^']*)'", found[2]))
+    return f"{message.removesuffix('.')}{near}" if near else message
 
 
 def _fail(message: str, status: int, *, as_json: bool) -> int:

@@ -21,7 +21,7 @@ from treadwell.map_making.request import LANDMARKS, TRUTH, MapRequest
 from treadwell.map_making.room_labels import RGB, MapLabels
 from treadwell.map_making.scan_matched import MatchedScans, no_scans
 from treadwell.map_making.static_frames import StaticSource
-from treadwell.map_memory import RememberedMap
+from treadwell.map_memory import FLOOR, RememberedMap
 from treadwell.map_result import MappedSource, MapResult, counted, times
 from treadwell.recording.cut_off import RESULT
 from treadwell.recording.map_file import NAME as MAP
@@ -179,6 +179,7 @@ class _Making:
             placed[:3, 3] += mapper.place.offset
             way.add(round(1e9 * time), placed)
         way.write(folder / ESTIMATE)
+        level = self._level(request)
         result = MapResult(
             schema="treadwell.map/1",
             version=__version__,
@@ -199,7 +200,7 @@ class _Making:
             origin=found.origin,
             settings=mapper.sizes.parameters,
             assumed=mapper.sizes.assumed,
-            notes=[*self._source.notes, *self._level(request)],
+            notes=[*self._source.notes, *level, *self._no_floor(found, level)],
             timing_ms={"map": times(mapper.seconds), "frame": times(self._seconds)},
         )
         self._draw(result, found, folder, Seen(probability, lines, topology))
@@ -245,6 +246,8 @@ class _Making:
         if result.matching is not None:
             title += f" · {result.localizer}: {result.matching.loops_closed} loops closed between "
             title += f"{result.matching.local_maps} local maps"
+        if result.cells.floor == 0:
+            title += "".join(f"\n{note}" for note in result.notes)
         known = self._source.kind not in ("cloud", "height image")
         way = np.array([pose[:2, 3] for _, pose in self._poses]) + self._mapper.place.offset[:2]
         shown = way if known else way[:0]
@@ -265,6 +268,12 @@ class _Making:
             return []
         up = f"{'-' if mean[axis] > 0 else ''}{'xyz'[axis]}"
         return [f"the pictures were taken with the world's {up} up, not z: --set map.up={up}"]
+
+    def _no_floor(self, found: RememberedMap, level: list[str]) -> list[str]:
+        """Return a note where pictures showed no floor at all, which is seldom what was wanted."""
+        if not self._mapper.sees_pictures or level or (found.kind == FLOOR).any():
+            return []
+        return ["no cell is floor: no level surface was seen"]
 
 
 def _recording(request: MapRequest, mapper: Mapper, folder: Path) -> MapRecording:

@@ -25,6 +25,7 @@ from treadwell.scenario.overrides import (
     read_overrides,
     split_key,
 )
+from treadwell.scenario.types import SetKeys
 
 LARGEST_FILE: Final = 1_000_000
 """Bytes of a scenario file."""
@@ -75,6 +76,7 @@ def load_scenario(
     lines = _apply(raw, settings, mentioned(overrides), robot=robot, seed=seed)
     asked = robot is not None or any(split_key(key)[0] == "robot" for key, _ in settings)
     fault = _place_robot(raw, None if asked else path.parent)
+    given = SetKeys(mentioned(overrides), tuple(key for key, _ in settings))
     scenario, untold = None, 0
     try:
         scenario = Scenario.model_validate(raw)
@@ -85,10 +87,10 @@ def load_scenario(
     except RecursionError:
         lines.append("nested too deep")
     if scenario is not None:
-        scenario._path = path
+        scenario._path, scenario._set_keys = path, given
         lines += [*([fault] if fault else []), *_check_files(scenario, raw)]
     if scenario is None or lines:
-        raise InputError(report(str(path), lines, untold))
+        raise InputError(report(str(path), lines, untold, given))
     return scenario
 
 

@@ -13,6 +13,7 @@ from treadwell.components import COMPONENTS, RENAMED, parameter_tables
 from treadwell.scenario.elements import ELEMENTS, MOVABLE
 from treadwell.scenario.events import EVENTS
 from treadwell.scenario.model import Expect, Goal, Navigation, Physics, Scenario, Sensors, Start
+from treadwell.scenario.types import SetKeys
 from treadwell.scenario.values import element_names
 
 MOST_ERRORS: Final = 20
@@ -26,6 +27,7 @@ TABLES: Final[dict[str, type[BaseModel]]] = {
 }
 Path = tuple[str | int, ...]
 MISSING: Final = object()
+NOT_SET: Final = SetKeys()
 
 
 def nearest(word: object, allowed: Iterable[str]) -> str:
@@ -131,19 +133,42 @@ def _component(found: object, text: str, allowed: Iterable[str]) -> str:
     return text + nearest(found, allowed) if new is None else f"is called '{new}' now"
 
 
-def report(file: str, lines: Sequence[str], untold: int = 0) -> str:
+def report(
+    file: str,
+    lines: Sequence[str],
+    untold: int = 0,
+    given: SetKeys = NOT_SET,
+) -> str:
     """Return the one message for all that is wrong in a file, capped.
 
     Args:
         file: its name.
         lines: one for each fault.
         untold: further faults, which have no line.
+        given: overrides: what is wrong with one of these is not the file's fault.
     """
     kept = list(lines[:MOST_ERRORS])
     more = len(lines) - len(kept) + untold
     if more:
         kept.append(f"and {more} more")
-    return "\n".join(f"{file}: {line}" for line in kept)
+    return "\n".join(
+        f"{given.word} {line.removeprefix(f'{given.word} ')} (over {file})"
+        if _is_set(line, given)
+        else f"{file}: {line}"
+        for line in kept
+    )
+
+
+def _is_set(line: str, given: SetKeys) -> bool:
+    """Say whether a line tells of an override: of its key, of what is in it, or of a new table."""
+    if not given.word or line.startswith(f"{given.word} "):
+        return bool(given.word)
+    at = line.partition(" ")[0].rstrip(":")
+    unknown = f"{at}: unknown key" in line
+    return any(
+        key == at or at.startswith(f"{key}.") or (unknown and key.startswith(f"{at}."))
+        for key in given.keys
+    )
 
 
 def _line(path: Path, raw: Mapping[str, Any], text: str) -> str:

@@ -26,6 +26,7 @@ from treadwell.scenario.types import (
     Point2,
     Scale,
     Seconds,
+    SetKeys,
     Table,
 )
 from treadwell.scenario.values import check_parameters
@@ -203,6 +204,7 @@ class Scenario(Table):
     """What makes a run pass."""
 
     _path: Path | None = PrivateAttr(default=None)
+    _set_keys: SetKeys = PrivateAttr(default=SetKeys())
     _written: "Scenario | None" = PrivateAttr(default=None)
     _scale: Scale = PrivateAttr(default=Scale())
 
@@ -228,6 +230,11 @@ class Scenario(Table):
     def path(self) -> Path | None:
         """The file that it was read from; None when it was made otherwise."""
         return self._path
+
+    @property
+    def set_keys(self) -> SetKeys:
+        """The keys of the overrides that it was read with."""
+        return self._set_keys
 
     @property
     def folder(self) -> Path:

@@ -2,7 +2,7 @@
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Any, Final
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, field_validator
@@ -146,3 +146,16 @@ ElementName = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_ -]{0,63}$")]
 """An element's name: no dot (it is part of a dotted key) and no digit first (that is an index)."""
 FileName = Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]{1,255}$")]
 """A file beside the scenario file."""
+
+
+@dataclass(frozen=True, slots=True)
+class SetKeys:
+    """Which keys overrides have, for what errors say: a scenario is the same with and without.
+
+    Attributes:
+        word: what they are called: `--set` or `overrides`.
+        keys: dotted keys.
+    """
+
+    word: str = field(default="", compare=False)
+    keys: tuple[str, ...] = field(default=(), compare=False)
