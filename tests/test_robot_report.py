@@ -151,3 +151,13 @@ def test_a_folder_without_a_model_is_bad_input(
     captured = capsys.readouterr()
     assert word in json.loads(captured.out)["error"]
     assert "Traceback" not in captured.err
+
+
+def test_a_robot_that_ships_is_checked_by_its_name_from_anywhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert execute(["robot", "check", "nao", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["fits"]
+    assert execute(["robot", "check", "noa"]) == 2
+    assert "noa: there is no such folder" in capsys.readouterr().err

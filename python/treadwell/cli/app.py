@@ -257,7 +257,10 @@ app.command(
 
 @robot_app.command("check", epilog="Example: treadwell robot check my_robot --walk")
 def robot_check(
-    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="With an MJCF and robot.toml.")],
+    folder: Annotated[
+        Path,
+        typer.Argument(metavar="FOLDER", help="With an MJCF and robot.toml; or a robot's name."),
+    ],
     *,
     walk: Annotated[bool, typer.Option("--walk", help="Let it walk a metre, too.")] = False,
     template: Annotated[

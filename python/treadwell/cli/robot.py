@@ -11,7 +11,8 @@ def check(folder: Path, *, walk: bool, template: bool, as_json: bool) -> int:
     """Report on a folder, and return the exit status.
 
     Args:
-        folder: the robot's.
+        folder: the robot's; the name of one that ships with the package, where there is no such
+            folder.
         walk: let it walk a metre, and then walk, turn, stop, be pushed and climb.
         template: write a draft of a `robot.toml` where there is none.
         as_json: write JSON instead of tables.
@@ -19,8 +20,11 @@ def check(folder: Path, *, walk: bool, template: bool, as_json: bool) -> int:
     Raises:
         InputError: there is no such folder, no MJCF in it, or a `robot.toml` already.
     """
+    from treadwell.data import data_folder, robot_names
     from treadwell.robot.report import report_on
 
+    if not folder.is_dir() and str(folder) in robot_names():
+        folder = data_folder("models") / folder
     if template:
         from treadwell.robot.template import write_template
 
