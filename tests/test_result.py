@@ -40,6 +40,7 @@ KEYS = [
     "collisions",
     "steps_taken",
     "footsteps_planned",
+    "footsteps_refused",
     "stairs_climbed",
     "stairs_descended",
     "path_length",

@@ -62,6 +62,8 @@ class FootstepPlan:
             estimates are right.
         first_cost: what the first plan cost that was found, s.
         expanded: places of a foot that the search looked on from.
+        refused: why steps that the user's planner listed were not taken, last time that they were
+            not; None where that was never so.
     """
 
     steps: tuple[PlannedFootstep, ...]
@@ -71,6 +73,7 @@ class FootstepPlan:
     epsilon: float = math.nan
     first_cost: float = math.nan
     expanded: int = 0
+    refused: str | None = None
 
     def __iter__(self) -> Iterator[PlannedFootstep]:
         """Give the steps one after the other."""
@@ -84,7 +87,7 @@ class FootstepPlan:
 def plan_of(found: Mapping[str, Any]) -> FootstepPlan:
     """Return a plan that the core gives as a dict."""
     if found.get("reason") is not None:
-        return FootstepPlan((), found["reason"])
+        return FootstepPlan((), found["reason"], refused=found.get("refused"))
     steps = [
         PlannedFootstep(side, x, y, yaw, height, slope, bearing, share, manner, time, partial, turn)
         for (side, manner), (time, partial, turn), (x, y, yaw), stands in found["steps"]
@@ -97,4 +100,5 @@ def plan_of(found: Mapping[str, Any]) -> FootstepPlan:
         epsilon=found["epsilon"],
         first_cost=found["first"][0],
         expanded=found["expanded"],
+        refused=found.get("refused"),
     )

@@ -10,7 +10,7 @@ is told, a `Setup`. An exception there is bad input: nothing runs. Other methods
 may have or not are said with its protocol.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol, Self
 
@@ -136,6 +136,22 @@ class Localizer(Protocol):
         """Return the pose at a control tick."""
 
 
+class ListedStep(NamedTuple):
+    """Where a planner would have a foot put.
+
+    Attributes:
+        side: foot that moves, `left` or `right`.
+        x: m, in the map, of the middle of its sole.
+        y: the same.
+        yaw: rad, heading of the sole.
+    """
+
+    side: str
+    x: float
+    y: float
+    yaw: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan:
     """What a planner found.
@@ -144,11 +160,17 @@ class Plan:
         path: (n, 2) points from the robot to the goal, None when there is no way.
         reason: one sentence when there is no way.
         replanned: whether it was planned anew.
+        footsteps: where the feet are to go, in this order, from where they stand. The behaviour
+            `footsteps` begins them where the robot comes near the first, and takes them while the
+            ground bears each of them and the legs reach it; what is not possible is refused, with
+            the reason in `result.json`, and it plans steps of its own. Other behaviours follow the
+            path.
     """
 
     path: NDArray[np.float64] | None
     reason: str = ""
     replanned: bool = True
+    footsteps: Sequence[ListedStep] = ()
 
 
 class Planner(Protocol):

@@ -60,8 +60,8 @@ class Scores:
             self._plans = pilot.footstep_times[0]
             found = pilot.planned_footsteps()
             self._plan = None if found is None else plan_of(found)
-            if self._plan is not None and step.footsteps:
-                self.footsteps.plan(self._plan)
+            if self._plan is not None:
+                self.footsteps.plan(self._plan, taken=bool(step.footsteps))
         self.footsteps.frame(
             self._plan,
             1e-9 * step.time_ns,
@@ -120,6 +120,7 @@ def result_of(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: 
         ],
         steps_taken=episode.pilot.steps_taken,
         footsteps_planned=scores.footsteps.landed if scores.plans_footsteps else None,
+        footsteps_refused=scores.footsteps.refused,
         footstep_plans=scores.footsteps.plans,
         stairs_climbed=judge.stairs_climbed,
         stairs_descended=judge.stairs_descended,

@@ -179,6 +179,8 @@ class Result(Shown, Table):
     """Steps of the feet."""
     footsteps_planned: Count | None = None
     """Steps that were planned one by one, and landed; None of a behaviour that plans none."""
+    footsteps_refused: list[str] = []
+    """Steps that the user's planner listed and that were not taken, each with the reason."""
     stairs_climbed: Count = 0
     """Changes of height of 15 mm or more upwards, by truth."""
     stairs_descended: Count = 0

@@ -29,6 +29,7 @@ class StepMemory:
         taken: where soles truly came down.
         plans: of each list of steps, as it was begun, what its plan costs.
         landed: listed steps that landed.
+        refused: why steps of the user's planner were not taken, in the order of time.
     """
 
     def __init__(self) -> None:
@@ -37,13 +38,21 @@ class StepMemory:
         self.taken: list[SolePlace] = []
         self.plans: list[FootstepPlanEntry] = []
         self.landed = 0
+        self.refused: list[str] = []
         self._last_landed = 0
         self._touch = (True, True)
         self._stepping = False
 
-    def plan(self, plan: FootstepPlan) -> None:
-        """Take in a plan that is new."""
-        for step in plan.steps[:1]:
+    def plan(self, plan: FootstepPlan, *, taken: bool = True) -> None:
+        """Take in a plan that is new.
+
+        Args:
+            plan: the plan.
+            taken: whether the feet take steps now.
+        """
+        if plan.refused is not None and plan.refused not in self.refused:
+            self.refused.append(plan.refused)
+        for step in plan.steps[:taken]:
             self.planned.append(SolePlace(step.x, step.y, step.forward()))
 
     def frame(

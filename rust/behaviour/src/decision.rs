@@ -105,4 +105,6 @@ pub struct PlannedFootsteps<'a> {
     pub times: PlanTimes,
     /// How many plans there were until then, this one too.
     pub count: u64,
+    /// Why steps that the planner listed were not taken, the last time that they were not.
+    pub refused: Option<&'a str>,
 }

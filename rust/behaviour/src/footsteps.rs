@@ -6,6 +6,7 @@
 
 mod config;
 mod failed;
+mod listed;
 mod look;
 mod progress;
 mod route;
@@ -29,6 +30,7 @@ use crate::{
 };
 pub use config::SteppingConfig;
 use failed::Failed;
+use listed::PlannersList;
 use progress::CostToGo;
 use route::LastSteps;
 pub(crate) use state::State;
@@ -76,6 +78,8 @@ pub struct Footsteps {
     planned_at: usize,
     /// The steps that were planned last, while they are taken.
     last: LastSteps,
+    /// What became of the planner's own lists.
+    list: PlannersList,
     /// The last plan, and how many there were.
     planned: (Option<Result<FootstepPlan, NoFootsteps>>, u64),
 }
@@ -119,6 +123,7 @@ impl Footsteps {
             given_up: (0, None),
             planned_at: 0,
             last: LastSteps::default(),
+            list: PlannersList::default(),
             planned: (None, 0),
         })
     }
@@ -217,6 +222,7 @@ impl Behaviour for Footsteps {
             ground: self.ground.map(),
             times: self.layer.times(),
             count: *count,
+            refused: self.list.refusal(),
         })
     }
 }

@@ -72,7 +72,7 @@ impl PyFootstepLayer {
     }
 }
 
-/// The plan that a behaviour made last, as [`PyFootstepLayer::plan`] has it, or the `reason` why there was none, with `exit` (x, y) m or None, `count`, and `times` (first, best) s.
+/// The plan that a behaviour made last, as [`PyFootstepLayer::plan`] has it, or the `reason` why there was none, with `exit` (x, y) m or None, why a list of the planner's was `refused` or None, `count`, and `times` (first, best) s.
 pub(crate) fn planned_as_dict(
     py: Python<'_>,
     planned: &PlannedFootsteps<'_>,
@@ -84,6 +84,7 @@ pub(crate) fn planned_as_dict(
     let dict = made.bind(py);
     dict.set_item("reason", planned.plan.err().map(|none| none.to_string()))?;
     dict.set_item("exit", planned.plan.ok().and_then(|plan| plan.exit_m))?;
+    dict.set_item("refused", planned.refused)?;
     dict.set_item("count", planned.count)?;
     dict.set_item("times", (planned.times.first_s, planned.times.best_s))?;
     Ok(made)

@@ -4,6 +4,8 @@ use geometry::{Goal, Map, PlanarPose, Pose, Robot};
 use mapping::FloorView;
 use stairs::{Stair, Staircase};
 
+use crate::footsteps::ListedStep;
+
 /// Why planning failed as a program. "There is no way" is no failure: see [`NoWay`].
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
@@ -111,6 +113,9 @@ pub struct Path {
     pub sidles: Vec<Sidle>,
     /// First and last point of each piece at stairs or in a passage, with what is walked close to edges there.
     pub spans: Vec<[usize; 2]>,
+    /// Where a planner of the user's would put the feet, in their order. The behaviour `footsteps` takes these steps as long as they hold; no other
+    /// behaviour reads them.
+    pub footsteps: Vec<ListedStep>,
     /// Where it ends.
     pub end: PathEnd,
     /// What it costs, in metres of open known floor.

@@ -56,7 +56,7 @@ impl Footsteps {
         self.feel(tick);
         self.read_ground(tick, &feet, Self::sole_heights_m(tick));
         let planned = self.planned_on(tick);
-        let mut found = self.plan_from(tick, feet, None, &planned);
+        let mut found = self.plan_next(tick, feet, None, &planned);
         if self.was_looked_at_in_vain(tick, &found) {
             self.read_ground(tick, &feet, Self::sole_heights_m(tick));
             found = self.plan_from(tick, feet, None, &planned);

@@ -45,8 +45,8 @@ impl Footsteps {
         self.read_ground(tick, &feet, heights_m);
         let mut holds: Vec<Footstep> = self.stepper.holds[..=landed].to_vec();
         let planned = self.last.from(landed + 1, &told_from_map);
-        match self.plan_from(tick, feet, Some(under_way.side.other()), &planned) {
-            Ok(plan) if self.may_walk_on(tick) && self.only_walks(&plan) => {
+        match self.plan_next(tick, feet, Some(under_way.side.other()), &planned) {
+            Ok(plan) if !self.list.followed && self.may_walk_on(tick) && self.only_walks(&plan) => {
                 self.last = LastSteps::default();
                 holds.extend(self.closing(&under_way));
             }

@@ -91,7 +91,7 @@ impl Footsteps {
         let near = self.lead.as_ref().map_or(climbs, |lead| {
             lead.step_away_m(tick) < self.config.stop_before
         });
-        if steps_here && !looking && near {
+        if steps_here && !looking && (near || self.is_at_list(tick)) {
             return Ok(self.stop_to_step(tick));
         }
         let led = self.lead.as_ref().map(|lead| &lead.plan);

@@ -1,8 +1,9 @@
 //! A planner of the user's.
 
-use geometry::{Map, Pose, Robot};
+use geometry::{Map, PlanarPose, Pose, Robot};
 use mapping::{FloorView, Surface};
 use numpy::PyReadonlyArray2;
+use planning::footsteps::ListedStep;
 use planning::{Goal, NoWay, Path, Plan, PlanError, Planner, Refusal};
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
@@ -13,10 +14,13 @@ use super::{FARTHEST_M, attribute, check_within, forget_if, sentence, something}
 use crate::floor_view::PyFloorView;
 use crate::products::flat;
 use crate::situation::PyGoal;
-use crate::stairs::PyStaircase;
+use crate::stairs::{PyStaircase, side};
 
 /// Points that a path can have at most: 4 km in steps of a cell.
 const MOST_POINTS: usize = 100_000;
+
+/// Footsteps that a plan can list at most.
+const MOST_FOOTSTEPS: usize = 1000;
 
 struct PythonPlanner {
     object: Py<PyAny>,
@@ -80,11 +84,39 @@ impl PythonPlanner {
             .into_iter()
             .map(|row| [row[0], row[1]])
             .collect();
+        let footsteps = read_footsteps(&plan)?;
         Ok(Plan {
-            way: Ok(describe(points_m, view)),
+            way: Ok(Path {
+                footsteps,
+                ..describe(points_m, view)
+            }),
             replanned,
         })
     }
+}
+
+/// Reads where the feet are to be put, of a plan that says so.
+fn read_footsteps(plan: &Bound<'_, PyAny>) -> PyResult<Vec<ListedStep>> {
+    if !plan.hasattr(intern!(plan.py(), "footsteps"))? {
+        return Ok(Vec::new());
+    }
+    let wanted = "a sequence of ListedStep (side, x m, y m, yaw rad)";
+    let listed: Vec<(String, f64, f64, f64)> = attribute(plan, ("plan()", "footsteps"), wanted)?;
+    if listed.len() > MOST_FOOTSTEPS {
+        let (most, found) = (MOST_FOOTSTEPS, listed.len());
+        return Err(PyValueError::new_err(format!(
+            "footsteps may be {most} at most, got {found}"
+        )));
+    }
+    let mut steps = Vec::with_capacity(listed.len());
+    for (name, x_m, y_m, yaw_rad) in listed {
+        check_within("footsteps", [x_m, y_m, yaw_rad], FARTHEST_M)?;
+        steps.push(ListedStep {
+            side: side(&name).map_err(PyValueError::new_err)?,
+            pose: PlanarPose::new(x_m, y_m, yaw_rad),
+        });
+    }
+    Ok(steps)
 }
 
 /// Adds to the user's points what the core's planners say of theirs. Clearance is not known: it counts as wide.

@@ -1,12 +1,8 @@
 //! Steps that were planned before, on ground that is known better now.
 
-use geometry::PlanarPose;
-use robot::Side;
-
 use super::plan::{FootstepPlan, PlannedFootstep};
 use super::question::FootstepQuestion;
 use super::space::FootstepSpace;
-use super::spots::StandingFoot;
 
 impl FootstepSpace<'_> {
     /// Plans are kept until a support changes: the steps that were planned before, where all of them are possible still and they end at the goal or
@@ -31,18 +27,8 @@ impl FootstepSpace<'_> {
     }
 
     fn kept(&mut self, planned: &[PlannedFootstep]) -> Option<FootstepPlan> {
-        let mut feet = self.start;
-        let mut steps = Vec::with_capacity(planned.len());
-        let mut last = None;
-        for step in planned {
-            let there = self.stand_at(step.side, step.pose)?;
-            let [standing, moving] = [step.side.other(), step.side].map(|side| feet[side.index()]);
-            let ahead = standing.pose.relative(&there.pose);
-            let reach = self.limits.reach(&ahead, step.side)?;
-            steps.push(self.step((&standing, &moving), &there, reach)?);
-            feet[step.side.index()] = there;
-            last = Some(there);
-        }
+        let places = planned.iter().map(|step| (step.side, step.pose));
+        let (steps, last) = self.steps_through(places, 0.0).ok()?;
         let last = last?;
         let cost_s = steps.iter().map(|step| step.cost.total_s()).sum();
         let on_s = if self.is_at_goal(&last) {
@@ -60,25 +46,11 @@ impl FootstepSpace<'_> {
             expanded: 0,
         })
     }
-
-    /// A foot of this side that stands at a place, wherever in a cell.
-    fn stand_at(&mut self, side: Side, pose: PlanarPose) -> Option<StandingFoot> {
-        let cell = self.map.lattice.cell_at(pose.x_m, pose.y_m);
-        let heading = self.table.nearest(pose.yaw_rad);
-        let foothold = self.footholds.read(self.map, cell, heading).ok()?;
-        Some(StandingFoot {
-            side,
-            pose,
-            cell,
-            heading,
-            foothold,
-        })
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use geometry::{Cell, Goal};
+    use geometry::{Cell, Goal, PlanarPose};
     use mapping::HeightMap;
 
     use super::*;
