@@ -47,7 +47,7 @@ impl Doubts {
         sums.extend((0..labels.len()).map(|at| {
             let (col, row) = (at % width, at / width);
             let along = self.reach(row, rows).map(|row| row * width + col);
-            self.sum(labels, at, along, |at| [self.miss[at], 1.0])
+            sum(labels, at, along, |at| [self.miss[at], 1.0])
         }));
         for (at, doubtful) in doubtful
             .iter_mut()
@@ -56,9 +56,9 @@ impl Doubts {
         {
             let (col, line) = (at % width, at - at % width);
             let along = self.reach(col, width).map(|col| line + col);
-            let [sum, count] = self.sum(labels, at, along, |at| sums[at]);
+            let [total, count] = sum(labels, at, along, |at| sums[at]);
             // The mean, in its own standard deviations, squared.
-            *doubtful |= sum * sum > sure * sure * count * self.alike;
+            *doubtful |= total * total > sure * sure * count * self.alike;
         }
         self.sums = sums;
     }
@@ -67,21 +67,20 @@ impl Doubts {
     fn reach(&self, at: usize, count: usize) -> Range<usize> {
         at.saturating_sub(self.tuning.around)..(at + self.tuning.around + 1).min(count)
     }
+}
 
-    /// Sums over those of some pixels that are of the same region as the one at `at`.
-    fn sum(
-        &self,
-        labels: &[u16],
-        at: usize,
-        along: impl Iterator<Item = usize>,
-        of: impl Fn(usize) -> [f32; 2],
-    ) -> [f32; 2] {
-        let same = along.filter(|&other| labels[other] == labels[at]);
-        same.fold([0.0; 2], |[sum, count], other| {
-            let [more, further] = of(other);
-            [sum + more, count + further]
-        })
-    }
+/// Sums over those of some pixels that are of the same region as the one at `at`.
+fn sum(
+    labels: &[u16],
+    at: usize,
+    along: impl Iterator<Item = usize>,
+    of: impl Fn(usize) -> [f32; 2],
+) -> [f32; 2] {
+    let same = along.filter(|&other| labels[other] == labels[at]);
+    same.fold([0.0; 2], |[sum, count], other| {
+        let [more, further] = of(other);
+        [sum + more, count + further]
+    })
 }
 
 #[cfg(test)]
