@@ -11,7 +11,7 @@ mod seeds;
 mod treads;
 pub(crate) mod tuning;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::picture::{Linear, MAX_REGIONS, Picture, SeenPicture, View};
 use crate::regions::finder::Look;
@@ -113,21 +113,31 @@ impl SlopeSearch {
         regions.len() > before
     }
 
-    /// Where there are slopes, doubts what is off its surface once all surfaces were fitted.
+    /// Where there are slopes, doubts what is off its surface once all surfaces were fitted; the regions that hold several surfaces.
     pub(crate) fn doubt(
         &mut self,
         picture: Picture<'_>,
         view: &View,
         regions: &[Region],
         labels: &[u16],
-    ) {
+    ) -> impl Iterator<Item = usize> {
         let is_any = regions.iter().any(|region| region.is_slope);
-        let Some(parts) = view.parts_of_planes() else {
-            return;
-        };
-        if !is_any && !self.memory.is_sure(&self.tuning.memory) {
-            return;
+        let parts = view.parts_of_planes();
+        let parts = parts.filter(|_| is_any || self.memory.sure > 0.0);
+        if let Some(parts) = parts {
+            self.look_for_doubts(SeenPicture { picture, view }, &parts, regions, labels);
         }
+        let mixed = parts.map(|_| self.doubts.mixed());
+        mixed.into_iter().flatten()
+    }
+
+    fn look_for_doubts(
+        &mut self,
+        seen: SeenPicture<'_>,
+        parts: &Matrix3<f64>,
+        regions: &[Region],
+        labels: &[u16],
+    ) {
         self.doubts.planes.clear();
         self.doubts.planes.extend(regions.iter().map(|region| {
             let plane = region.plane.filter(|_| region.is_slope);
@@ -136,7 +146,6 @@ impl SlopeSearch {
             slope.map_or(level, |plane| Some(plane.map(|value| value as f32).into()))
         }));
         self.doubtful.resize(labels.len(), false);
-        let seen = SeenPicture { picture, view };
         self.doubts.find(seen, labels, &mut self.doubtful);
     }
 

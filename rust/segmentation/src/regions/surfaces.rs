@@ -253,11 +253,13 @@ impl<F: Finder> FrameSurfaces<F> {
         for (region, fit) in self.regions.iter_mut().zip(&self.fits) {
             region.q = fit.q(&Vector2::zeros()) as f32;
         }
-        let (regions, labels) = (&self.regions, &self.labels);
-        self.parts.slopes.doubt(picture, view, regions, labels);
         self.parts
             .roughness
             .measure(picture, &self.regions, &self.eroded);
+        let (regions, labels) = (&self.regions, &self.labels);
+        for mixed in self.parts.slopes.doubt(picture, view, regions, labels) {
+            self.parts.roughness.forget(mixed);
+        }
         self.parts.slivers.find(
             &self.labels,
             [picture.width, picture.finer],

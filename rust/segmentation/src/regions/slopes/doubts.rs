@@ -16,6 +16,8 @@ pub(super) struct Doubts {
     /// How far each pixel is off its surface, in noises, and sums of it up and down.
     miss: Vec<f32>,
     sums: Vec<[f32; 2]>,
+    /// Pixels of each region, and those of them that are in doubt.
+    counts: Vec<[usize; 2]>,
 }
 
 impl Doubts {
@@ -49,6 +51,8 @@ impl Doubts {
             let along = self.reach(row, rows).map(|row| row * width + col);
             sum(labels, at, along, |at| [self.miss[at], 1.0])
         }));
+        self.counts.clear();
+        self.counts.resize(planes.len(), [0; 2]);
         for (at, doubtful) in doubtful
             .iter_mut()
             .enumerate()
@@ -58,9 +62,21 @@ impl Doubts {
             let along = self.reach(col, width).map(|col| line + col);
             let [total, count] = sum(labels, at, along, |at| sums[at]);
             // The mean, in its own standard deviations, squared.
-            *doubtful |= total * total > sure * sure * count * self.alike;
+            let is_off = total * total > sure * sure * count * self.alike;
+            *doubtful |= is_off;
+            let [all, off] = &mut self.counts[usize::from(labels[at]) - 1];
+            (*all, *off) = (*all + 1, *off + usize::from(is_off));
         }
         self.sums = sums;
+    }
+
+    /// The regions of which so much is in doubt that they are parts of several surfaces.
+    pub(super) fn mixed(&self) -> impl Iterator<Item = usize> {
+        let least = f64::from(self.tuning.mixed);
+        let counts = self.counts.iter().enumerate();
+        counts.filter_map(move |(index, [all, off])| {
+            (*off as f64 > least * *all as f64).then_some(index)
+        })
     }
 
     /// What is averaged along one axis around a place.
