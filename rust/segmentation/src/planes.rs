@@ -32,7 +32,7 @@ pub struct PlaneRegion {
     pub boundary: Option<Outline>,
     /// Height of the surface above the robot's ground, m, when the plane is horizontal.
     pub floor_height_m: Option<f64>,
-    /// How many times as rough as the ground it is, when it is horizontal and enough of both was seen to tell.
+    /// How many times as rough as the ground it is, when it is horizontal or a slope and enough of both was seen to tell.
     pub roughness: Option<f32>,
 }
 

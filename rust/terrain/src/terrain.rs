@@ -123,6 +123,17 @@ impl Terrain {
         self.settings.step_sigmas as f32 * (a * a + b * b).sqrt()
     }
 
+    /// Whether a difference in height on or beside a slope, of no more than a step, was never seen from so near that it could be told from
+    /// the level strips that a slope is cut into from afar.
+    pub(crate) fn may_be_strips(&self, one: usize, other: usize, rise_m: f32) -> bool {
+        let range_m = self.settings.judge_range as f32;
+        let is_unsure = |index: usize| {
+            let was_near = self.nearest_m.get(index);
+            self.slopes.is_near(index) && was_near.is_some_and(|&at_m| at_m > range_m)
+        };
+        f64::from(rise_m) <= self.needs.limits.step_m && is_unsure(one) && is_unsure(other)
+    }
+
     /// Height of a cell, m, where one is known.
     pub fn level_m(&self, index: usize) -> Option<f64> {
         let height = self.height_m[index];

@@ -109,7 +109,12 @@ impl<F: Finder> Grounded<F> {
                 continue;
             }
             if !self.surfaces.is_level(index) {
-                let record = self.describe_tilted_region(index, planes);
+                let mut record = self.describe_tilted_region(index, planes);
+                if let Some(slope) = &mut record
+                    && self.surfaces.regions[index].is_slope
+                {
+                    slope.roughness = self.surfaces.parts.roughness.of(index);
+                }
                 // Slices of walls and of slopes have none: they are left for generic planes.
                 let number = record.as_ref().map_or(0, |_| planes.regions.len() + 1);
                 self.product.floors.push((number as u16, f32::NAN));

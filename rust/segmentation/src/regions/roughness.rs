@@ -1,4 +1,4 @@
-//! How rough level surfaces are, in the roughness of the ground.
+//! How rough level surfaces and slopes are, in the roughness of the ground.
 //!
 //! Stones as small as the matching window are smoothed by it until they pass for a level surface in some more noise than others.
 //! The noise of the sensor is not known that well, and differs from block to block of the picture, but the ground that the robot
@@ -30,7 +30,7 @@ struct Deviation {
     squares: f32,
 }
 
-/// Measures how far regions deviate from level surfaces. Keeps what it learned of the ground.
+/// Measures how far regions deviate from level surfaces, and slopes from their planes. Keeps what it learned of the ground.
 #[derive(Debug, Clone)]
 pub(crate) struct Roughness {
     tuning: RoughnessTuning,
@@ -68,20 +68,29 @@ impl Roughness {
             let Some(region) = region.filter(|region| region.core >= fewest) else {
                 continue;
             };
+            let row = pixels.start / picture.width;
+            let plane = region.plane.filter(|_| region.is_slope);
+            let surface_px = |at: usize| match plane {
+                Some(plane) => plane.at(at - row * picture.width, row),
+                None => region.q * picture.g[at],
+            };
             let sums = &mut self.regions[usize::from(label)];
             let mut sum = *sums;
-            for (&d, &g) in picture.disparity_px[pixels.clone()]
-                .iter()
-                .zip(&picture.g[pixels])
-            {
+            for at in pixels {
+                let d = picture.disparity_px[at];
                 if !d.is_nan() {
-                    let deviation = (d - region.q * g).clamp(-largest_px, largest_px);
+                    let deviation = (d - surface_px(at)).clamp(-largest_px, largest_px);
                     sum.pixels += 1;
                     sum.squares += deviation * deviation;
                 }
             }
             *sums = sum;
         }
+    }
+
+    /// Says nothing of a region of the last frame, which is no one surface.
+    pub(crate) fn forget(&mut self, region: usize) {
+        self.regions[region + 1] = Deviation::default();
     }
 
     /// Learns from the region that is the ground.

@@ -4,17 +4,19 @@
 //! them, `d = a X + b Y + q g`, over what it fits better than the level surfaces do. It is a slope if it explains all of that
 //! better than the best flight of treads does that rises as much.
 
+mod doubts;
 mod growth;
 mod memory;
 mod seeds;
 mod treads;
 pub(crate) mod tuning;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::picture::{Linear, MAX_REGIONS, Picture, SeenPicture, View};
 use crate::regions::finder::Look;
 use crate::regions::region::Region;
+use doubts::Doubts;
 use growth::{SlopeGrowth, StripReach};
 use memory::SlopeMemory;
 use seeds::seeds;
@@ -27,6 +29,7 @@ pub(crate) struct SlopeSearch {
     tuning: SlopeTuning,
     growth: SlopeGrowth,
     treads: TreadFit,
+    doubts: Doubts,
     // Where the slopes of this frame were grown from, and their planes.
     found: Vec<(usize, Linear)>,
     /// Pixels of what may be a slope or stairs.
@@ -39,6 +42,7 @@ impl SlopeSearch {
     pub(crate) fn new(tuning: SlopeTuning) -> Self {
         Self {
             growth: SlopeGrowth::new(tuning.growth.clone(), tuning.gradients.clone()),
+            doubts: Doubts::new(tuning.doubts.clone(), tuning.alike),
             tuning,
             ..Self::default()
         }
@@ -107,6 +111,42 @@ impl SlopeSearch {
             };
         }
         regions.len() > before
+    }
+
+    /// Where there are slopes, doubts what is off its surface once all surfaces were fitted; the regions that hold several surfaces.
+    pub(crate) fn doubt(
+        &mut self,
+        picture: Picture<'_>,
+        view: &View,
+        regions: &[Region],
+        labels: &[u16],
+    ) -> impl Iterator<Item = usize> {
+        let is_any = regions.iter().any(|region| region.is_slope);
+        let parts = view.parts_of_planes();
+        let parts = parts.filter(|_| is_any || self.memory.sure > 0.0);
+        if let Some(parts) = parts {
+            self.look_for_doubts(SeenPicture { picture, view }, &parts, regions, labels);
+        }
+        let mixed = parts.map(|_| self.doubts.mixed());
+        mixed.into_iter().flatten()
+    }
+
+    fn look_for_doubts(
+        &mut self,
+        seen: SeenPicture<'_>,
+        parts: &Matrix3<f64>,
+        regions: &[Region],
+        labels: &[u16],
+    ) {
+        self.doubts.planes.clear();
+        self.doubts.planes.extend(regions.iter().map(|region| {
+            let plane = region.plane.filter(|_| region.is_slope);
+            let level = (region.q > 0.0).then_some([0.0, 0.0, region.q]);
+            let slope = plane.map(|plane| parts * plane.coefficients());
+            slope.map_or(level, |plane| Some(plane.map(|value| value as f32).into()))
+        }));
+        self.doubtful.resize(labels.len(), false);
+        self.doubts.find(seen, labels, &mut self.doubtful);
     }
 
     /// Where a slope was seen just now and is not told from level strips, nothing but the largest level surface, the ground, is sure.

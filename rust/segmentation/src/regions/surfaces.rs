@@ -256,6 +256,10 @@ impl<F: Finder> FrameSurfaces<F> {
         self.parts
             .roughness
             .measure(picture, &self.regions, &self.eroded);
+        let (regions, labels) = (&self.regions, &self.labels);
+        for mixed in self.parts.slopes.doubt(picture, view, regions, labels) {
+            self.parts.roughness.forget(mixed);
+        }
         self.parts.slivers.find(
             &self.labels,
             [picture.width, picture.finer],

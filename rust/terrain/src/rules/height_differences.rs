@@ -52,7 +52,8 @@ fn mark(terrain: &mut Terrain, index: usize, floor: f32) {
             continue;
         }
         let rise = terrain.slopes.step_m(index, next, there - here);
-        if rise > floor + terrain.noise_m(index, next) {
+        if rise > floor + terrain.noise_m(index, next) && !terrain.may_be_strips(index, next, rise)
+        {
             terrain.mark_step(index, rise);
             terrain.mark_step(next, rise);
         }
@@ -64,6 +65,7 @@ mod tests {
     use mapping::Surface;
     use proptest::prelude::*;
 
+    use crate::Rules;
     use crate::testing::{Floor, cell};
 
     proptest! {
@@ -105,5 +107,35 @@ mod tests {
             assert!(terrain.edge[at(x_m, 0.025)] && !terrain.open[at(x_m, 0.025)]);
         }
         assert!(!terrain.edge[at(0.225, 1.025)], "8 mm are floor");
+    }
+
+    /// Whether there is an edge anywhere where a slope of one metre that begins 1 m from the robot, who has been `nearer_m` nearer, has a
+    /// strip that is off by `off_m`.
+    fn has_edge(off_m: f64, nearer_m: f64, unseen: bool) -> bool {
+        let (mut rules, mut terrain) = (Rules::default(), crate::testing::terrain());
+        let mut floor = Floor::new();
+        floor.ramp([1.0, -2.0], [2.0, 2.0], [0.0, 0.09]);
+        floor.tilt([1.4, -2.0], [1.5, 2.0], 0.0);
+        floor.paint(
+            [1.4, -2.0],
+            [1.5, 2.0],
+            Surface::Floor((0.04 + off_m) as f32),
+        );
+        if unseen {
+            floor.paint([1.35, -2.0], [1.4, 2.0], Surface::Unknown);
+        }
+        floor.stand.at_m = [nearer_m, 0.0];
+        floor.read(&mut rules, &mut terrain, "shadows");
+        terrain.any_edge
+    }
+
+    #[test]
+    fn on_a_slope_a_low_step_is_believed_once_it_was_near_and_a_drop_from_afar() {
+        for unseen in [false, true] {
+            assert!(!has_edge(0.035, 0.0, unseen));
+            assert!(has_edge(0.035, 0.9, unseen));
+            assert!(has_edge(-0.1, 0.0, unseen), "a drop");
+            assert!(!has_edge(0.01, 0.9, unseen));
+        }
     }
 }

@@ -73,7 +73,9 @@ fn mark_line(terrain: &mut Terrain, first: usize, stride: usize, count: usize, w
             let (from, to) = (first + known * stride, first + i * stride);
             let rise = terrain.slopes.step_m(from, to, here - height);
             let noise_m = f64::from(terrain.noise_m(from, to));
-            if two_levels(f64::from(rise), 0.0, floor_m + noise_m) {
+            if two_levels(f64::from(rise), 0.0, floor_m + noise_m)
+                && !terrain.may_be_strips(from, to, rise)
+            {
                 for between in known..=i {
                     terrain.mark_step(first + between * stride, rise);
                 }

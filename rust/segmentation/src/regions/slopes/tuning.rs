@@ -22,6 +22,8 @@ settings! {
         treads: TreadTuning;
         /// How the frames together make a slope sure.
         memory: SlopeMemoryTuning;
+        /// Where a surface ends that meets a slope.
+        doubts: DoubtTuning;
     }
 }
 
@@ -131,5 +133,20 @@ settings! {
         fades: f64 = 0.2, "1", NOT_NEGATIVE;
         /// Slopes of two frames whose gradients differ by less than this are one.
         same_gradient: f64 = 0.06, "1", POSITIVE;
+    }
+}
+
+settings! {
+    /// Where a surface ends that meets a slope: no height is told where what is seen is off it by more than noise.
+    pub struct DoubtTuning("navigation.ground.tuning.slopes.doubts") {
+        /// Columns and rows to each side of a pixel over which it is averaged by how much its surface is off.
+        around: usize = 4, "1", within(0.0, 100.0);
+        /// Most that a pixel counts, in noises: a mismatch says no more than that it does not fit.
+        accept: f32 = 3.0, "1", POSITIVE;
+        /// The mean around a pixel is off by no more than so many of its standard deviations, or its height is in doubt.
+        sure: f32 = 3.0, "1", POSITIVE;
+        /// A region of which more than this share is in doubt holds several surfaces: how far it is off its plane does not tell how rough
+        /// it is.
+        mixed: f32 = 0.05, "1", SHARE;
     }
 }
