@@ -5,12 +5,13 @@ use dynamic_scenes::MovingTrack;
 use geometry::{Camera, Map, Pose, Robot};
 use localization::{Estimate, Localizer};
 use mapping::{FloorView, Surface, WorldModel};
+use nalgebra::Vector3;
 use proprioception::BodyState;
 use robot::Body;
 use segmentation::{Planes, Segmenter};
 use sensing::{Frame, Scan, SelfFilter};
 use settings::{POSITIVE, at_least, settings};
-use stairs::Recognizer;
+use stairs::{CarryingSole, Recognizer};
 
 use crate::PilotError;
 use crate::moving::Moving;
@@ -86,6 +87,22 @@ fn is_elsewhere(before: &Estimate, after: &Estimate, tuning: &PerceptionTuning) 
     let moved = before.map_from_odometry.inverse() * after.map_from_odometry;
     let robot_m = after.map_from_robot.origin().inner - before.map_from_robot.origin().inner;
     robot_m.norm() > tuning.elsewhere_distance || moved.yaw_rad().abs() > tuning.elsewhere_turn
+}
+
+/// The sole that carries the robot.
+fn carrying_sole(
+    body: &Body,
+    state: &BodyState,
+    map_from_robot: &Pose<Map, Robot>,
+) -> CarryingSole {
+    let torso_from_sole = body.torso_from_sole(&state.links, state.support);
+    let map_from_sole = map_from_robot.inner * state.robot_from_torso.inner * torso_from_sole;
+    let up = map_from_sole.rotation * Vector3::z();
+    CarryingSole {
+        middle_m: map_from_sole.translation.vector.xy().into(),
+        gradient: [-up.x / up.z, -up.y / up.z],
+        half_length_m: 0.5 * body.description().legs.get(state.support).sole.length,
+    }
 }
 
 impl Perception {
@@ -170,6 +187,8 @@ impl Perception {
         let _staircase = timing.measure(Stage::Stairs, || {
             let map_from_robot = &estimate.map_from_robot;
             self.recognizer.leave_slopes(self.world_model.view());
+            self.recognizer
+                .stand_on(&carrying_sole(body, body_then, map_from_robot));
             self.recognizer
                 .update(&self.scan, &self.planes, map_from_robot, steps_taken)
         })?;

@@ -25,5 +25,6 @@ pub use config::{
 };
 pub use edge_line::EdgeLine;
 pub use edges::edge_model::{EdgeModel, FittedEdge, Untrusted};
+pub use edges::felt::CarryingSole;
 pub use recognizer::{Recognizer, StairsError};
 pub use stair::{Edge, EdgeFit, Sides, Stair, Staircase, SureEdge};

@@ -11,7 +11,7 @@ use crate::edges::joints::{cut_off, join};
 use crate::frame::extract::Extraction;
 use crate::frame::view::PlanesView;
 use crate::treads::memory::TreadMemory;
-use crate::{Stair, Staircase, StairsConfig};
+use crate::{CarryingSole, Stair, Staircase, StairsConfig};
 
 /// Why a frame was not searched for stairs. The stairs are unchanged.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -120,6 +120,11 @@ impl Recognizer {
         sort_by_nearness(stairs, map_from_robot);
         self.staircase.frames = self.memory.frames;
         Ok(&self.staircase)
+    }
+
+    /// Takes in which sole carries the robot: on a slope it is tilted.
+    pub fn stand_on(&mut self, sole: &CarryingSole) {
+        self.fits.stand_on(sole, &self.config.tuning.edges);
     }
 
     /// Takes in where the map has slopes: what lies on them is no stair.

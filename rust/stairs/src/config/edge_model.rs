@@ -75,6 +75,8 @@ settings! {
         runs: usize = 11, "1", within(1.0, 100.0);
         /// Rise per metre beyond which nothing is a slope.
         steepest: f64 = 0.3, "1", POSITIVE;
+        /// Lowest step of stairs: what rises by two of them and more may be two steps with a tread between, which one frame may take for a slope.
+        step: f64 = 0.012, "m", POSITIVE;
         /// Places to each side of the edge at which a slope is tried.
         places: i32 = 3, "1", within(0.0, 100.0);
         /// Distance from place to place.

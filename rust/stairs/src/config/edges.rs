@@ -32,6 +32,8 @@ settings! {
         settled: f64 = 500.0, "1", POSITIVE;
         /// Farthest that the middles of one slope in two frames lie apart.
         apart: f64 = 0.12, "m", POSITIVE;
+        /// A sole that stands on it and rises a metre by so much less than it says that it is none.
+        felt: f64 = 0.1, "1", POSITIVE;
         /// Changes of height that are kept.
         kept: usize = 8, "1", within(1.0, 1000.0);
     }

@@ -9,16 +9,18 @@ use crate::{BevelMemoryTuning, Edge};
 
 /// A change of height, and what the frames said of it.
 #[derive(Debug, Clone)]
-struct ChangeOfHeight {
+pub(super) struct ChangeOfHeight {
     /// Heights before and behind it, map frame, m.
-    heights_m: [f64; 2],
+    pub(super) heights_m: [f64; 2],
     /// The middle of the slope that it may be, its ends those of the widest sight of it.
-    middle: Edge<Map>,
-    run_m: f64,
+    pub(super) middle: Edge<Map>,
+    pub(super) run_m: f64,
     /// What its place and length weigh.
     weight: f64,
     /// By how much it is better explained by a slope, in squared noise.
-    better: f64,
+    pub(super) better: f64,
+    /// Whether a sole stood on it that was not tilted so: it is none.
+    pub(super) refuted: bool,
     /// Steps since it was last seen.
     steps_ago: u32,
 }
@@ -71,7 +73,7 @@ impl ChangeOfHeight {
 /// The changes of height that were looked at.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Bevels {
-    known: Vec<ChangeOfHeight>,
+    pub(super) known: Vec<ChangeOfHeight>,
 }
 
 impl Bevels {
@@ -106,6 +108,7 @@ impl Bevels {
             run_m: fitted.run_m,
             weight: better.clamp(0.0, tuning.most),
             better: said,
+            refuted: false,
             steps_ago: 0,
         };
         let is_here = |known: &ChangeOfHeight| known.is_at(&new, tuning.apart);
@@ -136,7 +139,7 @@ impl Bevels {
     /// Those that are sure, their edges with the heights before and behind.
     fn sure(&self, tuning: &BevelMemoryTuning) -> impl Iterator<Item = &ChangeOfHeight> {
         let least = tuning.sure;
-        self.known.iter().filter(move |known| known.better > least)
+        (self.known.iter()).filter(move |known| known.better > least && !known.refuted)
     }
 
     /// The level before an edge to which the last slope leads that the robot crosses on its way there.

@@ -7,6 +7,7 @@ use sensing::{Intrinsics, Scan};
 
 use crate::edges::bevels::Bevels;
 use crate::edges::edge_model::bevel::BevelModel;
+use crate::edges::felt::CarryingSole;
 use crate::edges::fusion::FusedEdge;
 use crate::edges::joints::{apart_m, before, part_beside};
 use crate::frame::view::PlanesView;
@@ -143,6 +144,11 @@ impl Fits {
             edge: fused.whole(),
             heights_m: fused.heights_m,
         }));
+    }
+
+    /// The robot is carried by this sole.
+    pub(crate) fn stand_on(&mut self, sole: &CarryingSole, tuning: &EdgesTuning) {
+        self.bevels.stand_on(sole, &tuning.bevels);
     }
 
     /// The changes of height that are short slopes.

@@ -2,6 +2,7 @@
 
 pub(crate) mod bevels;
 pub(crate) mod edge_model;
+pub(crate) mod felt;
 pub(crate) mod fits;
 pub(crate) mod fusion;
 pub(crate) mod joints;

@@ -17,7 +17,7 @@ use super::lot::PIXELS;
 use super::onto_step;
 use super::sight::{CameraSight, StepModel};
 use crate::{BevelTuning, Edge, EdgeModelTuning};
-use faces::Faces;
+use faces::{Faces, RiseForm};
 
 /// What a frame says of a change of height.
 #[derive(Debug, Clone, Copy)]
@@ -26,7 +26,8 @@ pub(crate) struct FittedBevel {
     pub(crate) middle: Edge<Robot>,
     /// How far that slope takes from level to level, m.
     pub(crate) run_m: f64,
-    /// By how much it explains the picture better than an upright face does, in squared noise; negative where it does so worse.
+    /// By how much it explains the picture better than an upright face does, or two with a tread between, in squared noise; negative where it
+    /// does so worse.
     pub(crate) better: f64,
 }
 
@@ -65,25 +66,27 @@ impl BevelModel {
         };
         let room_m = room_m.map(|room_m| room_m.min(rules.around));
         let thinned = self.choose(scan, &sight, &start, (stretch.half_m, room_m), tuning)?;
-        let (upright, _) = self.settle(&sight, &start, 0.0, rules)?;
+        let (upright, _) = self.settle(&sight, &start, RiseForm::Riser, rules)?;
         let widest_m = 2.0 * room_m[0].min(room_m[1]) - rules.level_beside;
-        let mut best: Option<(StepModel, f64, f64)> = None;
-        for index in 0..rules.runs {
-            let run_m = rules.shortest + rules.run_step * index as f64;
-            if run_m > widest_m || rise_m > rules.steepest * run_m {
-                continue;
-            }
-            if let Some((step, cost)) = self.settle(&sight, &start, run_m, rules)
-                && best.is_none_or(|(_, _, least)| cost < least)
-            {
-                best = Some((step, run_m, cost));
-            }
-        }
-        let (step, run_m, _) = best?;
-        let noise_px = self.noise_px(&sight, &step, run_m, rules)?;
+        let runs_m = || {
+            let runs_m = (0..rules.runs).map(|at| rules.shortest + rules.run_step * at as f64);
+            runs_m.take_while(move |&run_m| run_m <= widest_m)
+        };
+        let slopes_m = runs_m().filter(|run_m| rise_m <= rules.steepest * run_m);
+        let (step, run_m) = self.best(&sight, &start, (slopes_m, RiseForm::Slope), rules)?;
+        let slope = RiseForm::Slope(run_m);
+        let noise_px = self.noise_px(&sight, &step, slope, rules)?;
         let most = rules.outlier * noise_px;
-        let bevel = self.cost(&sight, &step, run_m, most)?;
-        let riser = self.cost(&sight, &upright, 0.0, most)?;
+        let bevel = self.cost(&sight, &step, slope, most)?;
+        let mut riser = self.cost(&sight, &upright, RiseForm::Riser, most)?;
+        if bevel < riser
+            && rise_m >= 2.0 * rules.step
+            && let Some((step, deep_m)) =
+                self.best(&sight, &start, (runs_m(), RiseForm::Tread), rules)
+            && let Some(flight) = self.cost(&sight, &step, RiseForm::Tread(deep_m), most)
+        {
+            riser = riser.min(flight);
+        }
         let alike = (PIXELS as f64 / thinned as f64).max(1.0);
         Some(FittedBevel {
             middle: onto_step(guess, &stretch, &step),
@@ -102,7 +105,7 @@ impl BevelModel {
         tuning: &EdgeModelTuning,
     ) -> Option<usize> {
         let rules = &tuning.bevels;
-        let faces = Faces::new(sight, step, 0.0)?;
+        let faces = Faces::new(sight, step, RiseForm::Riser)?;
         let (across, along) = (sight.along(&step.normal()), sight.along(&step.along()));
         let camera = sight.position_m.xy();
         let ahead_m = -step.beyond_m(&camera);
@@ -137,12 +140,31 @@ impl BevelModel {
         Some(thinned)
     }
 
-    /// The place and levels with which a slope of this length explains the pixels best, and how badly it does so.
+    /// What of these lengths, m, explains the pixels best between the levels, and with which place and levels.
+    fn best(
+        &mut self,
+        sight: &CameraSight,
+        start: &StepModel,
+        (lengths_m, form): (impl Iterator<Item = f64>, fn(f64) -> RiseForm),
+        rules: &BevelTuning,
+    ) -> Option<(StepModel, f64)> {
+        let mut best: Option<(StepModel, f64, f64)> = None;
+        for length_m in lengths_m {
+            if let Some((step, cost)) = self.settle(sight, start, form(length_m), rules)
+                && best.is_none_or(|(_, _, least)| cost < least)
+            {
+                best = Some((step, length_m, cost));
+            }
+        }
+        best.map(|(step, length_m, _)| (step, length_m))
+    }
+
+    /// The place and levels with which what is between them explains the pixels best, and how badly it does so.
     fn settle(
         &mut self,
         sight: &CameraSight,
         start: &StepModel,
-        run_m: f64,
+        form: RiseForm,
         rules: &BevelTuning,
     ) -> Option<(StepModel, f64)> {
         let mut best: Option<(StepModel, f64)> = None;
@@ -151,7 +173,7 @@ impl BevelModel {
                 place_m: f64::from(place) * rules.place_step,
                 ..*start
             };
-            if let Some(cost) = self.cost(sight, &step, run_m, rules.largest)
+            if let Some(cost) = self.cost(sight, &step, form, rules.largest)
                 && best.is_none_or(|(_, least)| cost < least)
             {
                 best = Some((step, cost));
@@ -159,9 +181,9 @@ impl BevelModel {
         }
         let (mut step, mut least) = best?;
         for _ in 0..rules.rounds {
-            let next = self.improved(sight, start, &step, run_m, rules);
+            let next = self.improved(sight, start, &step, form, rules);
             let judged =
-                next.and_then(|next| Some((next, self.cost(sight, &next, run_m, rules.largest)?)));
+                next.and_then(|next| Some((next, self.cost(sight, &next, form, rules.largest)?)));
             match judged.filter(|(_, cost)| *cost < least) {
                 Some(better) => (step, least) = better,
                 None => break,
@@ -176,7 +198,7 @@ impl BevelModel {
         sight: &CameraSight,
         start: &StepModel,
         step: &StepModel,
-        run_m: f64,
+        form: RiseForm,
         rules: &BevelTuning,
     ) -> Option<StepModel> {
         let trial_m = rules.trial;
@@ -186,8 +208,8 @@ impl BevelModel {
             far_height_m: step.far_height_m + change.z,
             ..*step
         };
-        let here = Faces::new(sight, step, run_m)?;
-        let trial = |change: Vector3<f64>| Faces::new(sight, &moved(&(change * trial_m)), run_m);
+        let here = Faces::new(sight, step, form)?;
+        let trial = |change: Vector3<f64>| Faces::new(sight, &moved(&(change * trial_m)), form);
         let around = [
             trial(Vector3::x())?,
             trial(Vector3::y())?,
@@ -222,10 +244,10 @@ impl BevelModel {
         &mut self,
         sight: &CameraSight,
         step: &StepModel,
-        run_m: f64,
+        form: RiseForm,
         most_px: f64,
     ) -> Option<f64> {
-        let faces = Faces::new(sight, step, run_m)?;
+        let faces = Faces::new(sight, step, form)?;
         let misses = (self.pixels.iter())
             .map(|&[col, row, observed_px]| (observed_px - faces.seen_px(col, row)).abs());
         Some(misses.map(|miss_px| miss_px.min(most_px).powi(2)).sum())
@@ -236,10 +258,10 @@ impl BevelModel {
         &mut self,
         sight: &CameraSight,
         step: &StepModel,
-        run_m: f64,
+        form: RiseForm,
         rules: &BevelTuning,
     ) -> Option<f64> {
-        let faces = Faces::new(sight, step, run_m)?;
+        let faces = Faces::new(sight, step, form)?;
         self.misses.clear();
         self.misses.extend(
             (self.pixels.iter())

@@ -32,6 +32,11 @@ fn scene(run_m: f64, rise_m: f64) -> Scene {
 
 /// What frames of a change of height say on the whole: by how much a slope is better, and its mean length, m.
 fn told(run_m: f64, rise_m: f64) -> (f64, f64) {
+    told_of(&scene(run_m, rise_m), FRONT_M + 0.5 * run_m, rise_m)
+}
+
+/// [`told`] of what changes its height by so much around a place, m.
+fn told_of(scene: &Scene, middle_m: f64, rise_m: f64) -> (f64, f64) {
     let pose = camera_pose(0.0, TILT_RAD);
     let mut planes = Planes::new(CAMERA.width * CAMERA.height);
     planes.robot_from_camera = pose;
@@ -40,8 +45,8 @@ fn told(run_m: f64, rise_m: f64) -> (f64, f64) {
     let frames = 6;
     for seed in 0..frames {
         let mut noise = Noise::new(seed);
-        let scan = scene(run_m, rise_m).scan(&pose, pose, 0.125, &mut noise);
-        let at_m = FRONT_M + 0.5 * run_m + noise.within(0.02);
+        let scan = scene.scan(&pose, pose, 0.125, &mut noise);
+        let at_m = middle_m + noise.within(0.02);
         let end = |left_m: f64| Point::new(at_m, left_m, rise_m);
         let guess = Edge {
             left: end(0.3),
@@ -83,5 +88,19 @@ fn steps_of_15_to_50_mm_are_no_slopes() {
     for rise_m in [0.015, 0.02, 0.03, 0.05, -0.015, -0.02, -0.03, -0.05] {
         let (better, _) = told(0.0, rise_m);
         assert!(better < 0.0, "{rise_m}: {better}");
+    }
+}
+
+#[test]
+fn two_steps_with_a_tread_of_12_cm_between_are_no_slope() {
+    for rise_m in [0.05, 0.062, 0.07] {
+        let mut flight = scene(0.0, 0.5 * rise_m);
+        let top = Block {
+            low_m: [FRONT_M + 0.12, -0.9, -0.2],
+            high_m: [2.0, 0.9, rise_m],
+        };
+        flight.blocks.push(top);
+        let (better, _) = told_of(&flight, FRONT_M + 0.06, rise_m);
+        assert!(better < 0.5, "{rise_m}: {better}");
     }
 }
