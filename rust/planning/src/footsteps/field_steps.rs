@@ -39,6 +39,11 @@ impl Prices {
             unseen: config.unseen_cost as f32,
         }
     }
+
+    /// What a climb of so much costs beside the way where nobody saw it, s.
+    pub(super) fn unseen_climb_s(&self, rise_m: f32) -> f32 {
+        rise_m * self.climb_s[1]
+    }
 }
 
 /// The eight steps from a cell, with what each costs; those that lead nowhere left out.

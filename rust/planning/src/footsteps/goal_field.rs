@@ -51,9 +51,14 @@ impl GoalField {
             .extend(self.levels_m.iter().map(|level_m| level_m.is_nan()));
         let leads_there = question.unseen != Unseen::Closed;
         if leads_there {
+            self.tell_goals_level(goal);
+            let guessed: Vec<bool> = self
+                .levels_m
+                .iter()
+                .map(|level_m| level_m.is_nan())
+                .collect();
             guess_levels(&mut self.levels_m, self.cols);
-            let (unseen, rounds) = (&self.unseen, config.guess_rounds);
-            smooth_levels(&mut self.levels_m, unseen, self.cols, rounds);
+            smooth_levels(&mut self.levels_m, &guessed, self.cols, config.guess_rounds);
         }
         self.read_exits(map, config.walk_height as f32, question.vain_m);
         self.speed_mps = limits.speed_mps();
@@ -65,21 +70,17 @@ impl GoalField {
         for row in 0..self.rows {
             for col in 0..self.cols {
                 let node = (row * self.cols + col) as u32;
-                let [x_m, y_m] = self.lattice.center_of(Cell::new(col, row));
-                // The goal's own cell counts whatever its radius.
-                let from_m = geometry::hypot(x_m - goal.x_m, y_m - goal.y_m);
-                let here = from_m <= goal.radius_m.max(self.lattice.cell_m);
-                if here && !self.levels_m[node as usize].is_nan() {
+                if self.is_at_goal(node, goal) && !self.levels_m[node as usize].is_nan() {
                     known = true;
                     self.goal_seen |= !self.unseen[node as usize];
                     self.dijkstra.begin_at(&mut self.costs_s, node, 0.0);
                 }
             }
         }
-        if leads_there && !known {
-            known = self.begin_at_rim(goal);
-        }
         let prices = Prices::of(config, limits, self.lattice.cell_m);
+        if leads_there && !known {
+            known = self.begin_at_rim(goal, &prices);
+        }
         let Self {
             dijkstra,
             costs_s,
@@ -126,8 +127,27 @@ impl GoalField {
         least_s
     }
 
-    /// Begins at the cells along the rim, each as far from the goal as the straight way is: the goal lies beyond.
-    fn begin_at_rim(&mut self, goal: &Goal) -> bool {
+    /// Whether a cell lies at the goal: its own one does whatever its radius.
+    fn is_at_goal(&self, node: u32, goal: &Goal) -> bool {
+        let cell = Cell::new(node as i32 % self.cols, node as i32 / self.cols);
+        let from_m = geometry::distance_m(self.lattice.center_of(cell), [goal.x_m, goal.y_m]);
+        from_m <= goal.radius_m.max(self.lattice.cell_m)
+    }
+
+    /// Where the ground at the goal was not seen it is as high as was told, if anything was.
+    fn tell_goals_level(&mut self, goal: &Goal) {
+        let Some(height_m) = goal.height_m else {
+            return;
+        };
+        for node in 0..self.levels_m.len() {
+            if self.unseen[node] && self.is_at_goal(node as u32, goal) {
+                self.levels_m[node] = height_m as f32;
+            }
+        }
+    }
+
+    /// Begins at the cells along the rim, each as far from the goal as the straight way is, and the climb to its level: the goal lies beyond.
+    fn begin_at_rim(&mut self, goal: &Goal, prices: &Prices) -> bool {
         let mut any = false;
         for node in 0..self.levels_m.len() {
             let (col, row) = (node as i32 % self.cols, node as i32 / self.cols);
@@ -137,7 +157,10 @@ impl GoalField {
             }
             let [x_m, y_m] = self.lattice.center_of(Cell::new(col, row));
             let to_m = geometry::hypot(x_m - goal.x_m, y_m - goal.y_m);
-            let cost_s = (to_m / self.speed_mps) as f32;
+            let rise_m = (goal.height_m).map_or(0.0, |height_m| {
+                (height_m as f32 - self.levels_m[node]).abs()
+            });
+            let cost_s = (to_m / self.speed_mps) as f32 + prices.unseen_climb_s(rise_m);
             self.dijkstra
                 .begin_at(&mut self.costs_s, node as u32, cost_s);
             self.exits[node] = true;

@@ -169,4 +169,30 @@ mod tests {
         assert_eq!(ask(true).exit_m, None);
         assert!(ask(false).exit_m.is_some());
     }
+
+    #[test]
+    fn a_goal_that_was_not_seen_and_is_told_to_lie_below_is_farther_than_one_on_the_level() {
+        let seen = map(|x_m, _| if x_m < 0.8 { 0.2 } else { f64::NAN });
+        let mut layer = layer();
+        let mut whole_s = |height_m: Option<f64>| {
+            let question = FootstepQuestion {
+                feet: layer.feet_around(&PlanarPose::default()),
+                first: None,
+                unseen: Unseen::Priced {
+                    stop_before_m: 0.2,
+                    faces_rad: 0.8,
+                },
+                vain_m: &[],
+                planned: &[],
+            };
+            let to = Goal {
+                height_m,
+                ..goal(1.8, 0.0)
+            };
+            layer.plan_over(&seen, &question, &to).unwrap().whole_s
+        };
+        let level_s = whole_s(None);
+        assert_eq!(whole_s(Some(0.2)), level_s);
+        assert!(whole_s(Some(0.0)) > level_s + 5.0);
+    }
 }
