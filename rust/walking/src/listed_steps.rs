@@ -71,7 +71,8 @@ impl Gait {
         Some(Swing::new(side, Manner::Careful, from, to))
     }
 
-    /// Where a foot that walks lands that is told to go there; `None` where that is another level, or too far for a walk.
+    /// Where a foot that walks lands that is told to go there; `None` where that is another level, too far for a walk, or out of a stance that no
+    /// walk has.
     fn walked_to(
         &self,
         stance: &FootPose,
@@ -83,6 +84,12 @@ impl Gait {
         let planar = self.planner.within_walk(&stance.planar, &told.planar, side);
         let level = |foot: &FootPose| (told.z_m - foot.z_m).abs() <= tuning.level;
         let near = planar.distance_m(&told.planar) <= tuning.shortened;
+        // Out of a longer or wider stance than a walk's the weight does not get over one foot in time.
+        let other = side.other();
+        let walked = self
+            .planner
+            .within_walk(&from.planar, &stance.planar, other);
+        let near = near && walked.distance_m(&stance.planar) <= tuning.shortened;
         (level(stance) && level(from) && near).then_some(FootPose { planar, ..told })
     }
 }

@@ -291,3 +291,19 @@ proptest! {
         prop_assert_eq!(world.walker.stepping().landed, 6);
     }
 }
+
+#[test]
+fn a_step_out_of_a_longer_stance_than_a_walks_is_taken_carefully() {
+    let config = config();
+    let careful_s = config.climb_double_support + config.climb_swing_time;
+    for (length_m, careful) in [
+        (config.max_forward - 0.01, false),
+        (config.max_forward + 0.03, true),
+    ] {
+        let first = step(Side::Left, length_m, 0.0, WHOLE_M);
+        let list = [first, walked(Side::Right, length_m, 0.0)];
+        let landings_s = landings_s(&mut Ideal::new(), &climb(&list));
+        let apart_s = landings_s[1] - landings_s[0];
+        assert_eq!(apart_s > careful_s, careful, "{length_m} {landings_s:?}");
+    }
+}
