@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use super::tuning::DoubtTuning;
+use super::tuning::SlopeDoubtTuning;
 use crate::picture::SeenPicture;
 
 /// Finds pixels around which a surface is off what is seen. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Doubts {
-    tuning: DoubtTuning,
+    tuning: SlopeDoubtTuning,
     /// Pixels that tell as much as one independent one.
     alike: f32,
     /// `(a, b, q)` of each region's plane; none of what is neither level nor a slope.
@@ -22,7 +22,7 @@ pub(super) struct Doubts {
 
 impl Doubts {
     /// Buffers that are still empty.
-    pub(super) fn new(tuning: DoubtTuning, alike: f64) -> Self {
+    pub(super) fn new(tuning: SlopeDoubtTuning, alike: f64) -> Self {
         Self {
             tuning,
             alike: alike as f32,
@@ -33,7 +33,7 @@ impl Doubts {
     /// Marks the pixels around which the mean of their region is further off its plane than noise would have it: a part of a slope
     /// that was taken for the level it leads to, or ground that a slope was grown over.
     pub(super) fn find(&mut self, seen: SeenPicture<'_>, labels: &[u16], doubtful: &mut [bool]) {
-        let DoubtTuning { accept, sure, .. } = self.tuning;
+        let SlopeDoubtTuning { accept, sure, .. } = self.tuning;
         let width = seen.picture.width;
         let planes = &self.planes;
         self.miss.clear();
@@ -130,7 +130,7 @@ mod tests {
             sigma_px: &sigma_px,
             finer: 1,
         };
-        let mut doubts = Doubts::new(DoubtTuning::default(), 25.0);
+        let mut doubts = Doubts::new(SlopeDoubtTuning::default(), 25.0);
         doubts.planes.push(Some([0.0, 0.0, 1.0]));
         let mut doubtful = vec![false; count];
         let seen = SeenPicture {

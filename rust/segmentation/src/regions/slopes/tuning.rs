@@ -23,7 +23,7 @@ settings! {
         /// How the frames together make a slope sure.
         memory: SlopeMemoryTuning;
         /// Where a surface ends that meets a slope.
-        doubts: DoubtTuning;
+        doubts: SlopeDoubtTuning;
     }
 }
 
@@ -138,7 +138,7 @@ settings! {
 
 settings! {
     /// Where a surface ends that meets a slope: no height is told where what is seen is off it by more than noise.
-    pub struct DoubtTuning("navigation.ground.tuning.slopes.doubts") {
+    pub struct SlopeDoubtTuning("navigation.ground.tuning.slopes.doubts") {
         /// Columns and rows to each side of a pixel over which it is averaged by how much its surface is off.
         around: usize = 4, "1", within(0.0, 100.0);
         /// Most that a pixel counts, in noises: a mismatch says no more than that it does not fit.
