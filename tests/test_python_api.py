@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from episode_builders import result, scenario
 from hypothesis import given
 from hypothesis import strategies as st
 from user_parts import PARTS, Straight
@@ -15,6 +16,7 @@ import treadwell
 from treadwell.errors import InputError
 from treadwell.plugins import METHODS
 from treadwell.protocols import Plan
+from treadwell.runner import Run
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.overrides import Overrides, assign, read_overrides
 
@@ -187,4 +189,20 @@ def test_a_part_may_be_named_as_a_scenario_names_it() -> None:
 
 
 def test_the_doors_are_there_for_completion() -> None:
-    assert set(treadwell.__all__) <= set(dir(treadwell))
+    public = {name for name in dir(treadwell) if not name.startswith("__")}
+    assert public == set(treadwell.__all__) - {"__version__"}
+
+
+def test_an_episode_and_its_steps_are_a_line_at_the_prompt() -> None:
+    episode = treadwell.Episode("open_floor", seed=3)
+    assert repr(episode) == "<Episode open_floor with qrio, seed 3, 0.00 s>"
+    step = episode.tick()
+    assert repr(step).startswith(f"<Step at 0.00 s: {step.state}, believes (")
+    assert len(repr(step)) < 200
+
+
+def test_a_run_says_its_reason() -> None:
+    run = Run(result(scenario(), outcome="refused", reason="blocked: a box"), Path("runs/x"))
+    assert run.reason == "blocked: a box"
+    assert repr(run).endswith("not passed (blocked: a box); runs/x>")
+    assert not [name for name in dir(run.result) if name.startswith("model_")]

@@ -1,7 +1,7 @@
 """A testbed: a small humanoid finds its own way over an obstacle course, by its senses alone.
 
 >>> import treadwell
->>> result = treadwell.run("slalom", seed=3)           # the same as `treadwell run slalom --seed 3`
+>>> run = treadwell.run("slalom", seed=3)              # the same as `treadwell run slalom --seed 3`
 >>> for step in treadwell.Episode("slalom"):           # or frame by frame
 ...     step.observation.depth, step.estimate.pose, step.command
 >>> planners = {"navigation.planner": ["a_star", "voronoi"]}
@@ -51,4 +51,4 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever the name means
 
 def __dir__() -> list[str]:
     """Return the doors, those that were not used yet, too: for completion in a notebook."""
-    return sorted({*globals(), *__all__})
+    return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

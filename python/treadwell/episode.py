@@ -54,7 +54,7 @@ class Estimate:
     odometry: Pose
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Step:
     """What happened at a control tick.
 
@@ -78,6 +78,13 @@ class Step:
     footsteps: tuple[Footstep, ...] = ()
     outcome: str | None = None
     reason: str | None = None
+
+    def __repr__(self) -> str:
+        x, y, z, yaw = self.estimate.pose
+        parts = [self.state, f"believes ({x:.2f}, {y:.2f}, {z:.2f}) m, {yaw:.2f} rad"]
+        parts += ["a depth image"] if self.observation.depth is not None else []
+        parts += [said for said in (self.outcome, self.reason) if said]
+        return f"<Step at {1e-9 * self.time_ns:.2f} s: {', '.join(parts)}>"
 
 
 class Episode:
@@ -158,6 +165,11 @@ class Episode:
         static_map = told_map(scenario, self.robot, self.course)
         self.core_input = CoreInput(told, self.robot.file.navigation, static_map, paths)
         self.pilot = build_core(scenario, told, given, static_map)
+
+    def __repr__(self) -> str:
+        title = f"{self.scenario.name} with {self.robot.name}, seed {self.scenario.seed}"
+        end = "" if self.verdict is None else f", {self.verdict.outcome}"
+        return f"<Episode {title}, {1e-9 * self.simulation.time_ns:.2f} s{end}>"
 
     def tick(self) -> Step:
         """Go on by one control tick.

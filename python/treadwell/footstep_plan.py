@@ -48,7 +48,7 @@ class PlannedFootstep:
         return self.time + self.partial + self.turn
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class FootstepPlan:
     """Steps to a goal, or why there are none. Iterating over it gives the steps.
 
@@ -82,6 +82,11 @@ class FootstepPlan:
     def __len__(self) -> int:
         """Return how many steps there are."""
         return len(self.steps)
+
+    def __repr__(self) -> str:
+        if self.reason is not None:
+            return f"<FootstepPlan none: {self.reason}>"
+        return f"<FootstepPlan {len(self.steps)} steps, {self.cost:.1f} s>"
 
 
 def plan_of(found: Mapping[str, Any]) -> FootstepPlan:

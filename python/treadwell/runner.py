@@ -57,6 +57,11 @@ class Run:
         return self.result.outcome
 
     @property
+    def reason(self) -> str | None:
+        """Why it ended so, where there is a reason."""
+        return self.result.reason
+
+    @property
     def passed(self) -> bool:
         """Whether it met the scenario's expectations."""
         return self.result.passed

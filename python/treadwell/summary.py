@@ -21,6 +21,10 @@ class Shown:
     def _table(self, document: Mapping[str, Any]) -> tuple[str, list[Row]]:
         return result_title(document), result_rows(document)
 
+    def __dir__(self) -> list[str]:
+        """Return what it says, without what its base class, pydantic's, offers to programs."""
+        return [name for name in super().__dir__() if not name.startswith(("model_", "__pydantic"))]
+
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self._line(self.document())}>"
 
@@ -80,7 +84,8 @@ def result_line(document: Mapping[str, Any]) -> str:
     """Return scenario, robot, seed, and how the run ended, in a line."""
     passed = "passed" if document["passed"] else "not passed"
     time = _number(document["simulated_seconds"], "s", 1)
-    return f"{result_title(document)}: {document['outcome']} after {time}, {passed}"
+    reason = f" ({document['reason']})" if document.get("reason") else ""
+    return f"{result_title(document)}: {document['outcome']} after {time}, {passed}{reason}"
 
 
 def collisions_in_words(count: int, standing: int) -> str:

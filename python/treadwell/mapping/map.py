@@ -97,6 +97,9 @@ class Map:
         self._place: Placing | None = None
         self._camera_set = False
 
+    def __repr__(self) -> str:
+        return f"<Map {self._name}, {self._kept.taken} frames>"
+
     def insert(
         self, depth: ArrayLike, world_from_camera: ArrayLike, *, time: float | None = None
     ) -> Seen:

@@ -151,6 +151,10 @@ impl PyOctree {
         rows(py, found)
     }
 
+    fn __repr__(&self) -> String {
+        format!("<Octree with voxels of {} m>", self.resolution())
+    }
+
     /// Side of the smallest voxels, m.
     #[getter]
     fn resolution(&self) -> f64 {
