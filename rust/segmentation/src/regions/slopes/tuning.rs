@@ -144,7 +144,7 @@ settings! {
         /// Most that a pixel counts, in noises: a mismatch says no more than that it does not fit.
         accept: f32 = 3.0, "1", POSITIVE;
         /// The mean around a pixel is off by no more than so many of its standard deviations, or its height is in doubt.
-        sure: f32 = 3.0, "1", POSITIVE;
+        sure: f32 = 2.5, "1", POSITIVE;
         /// A region of which more than this share is in doubt holds several surfaces: how far it is off its plane does not tell how rough
         /// it is.
         mixed: f32 = 0.05, "1", SHARE;
