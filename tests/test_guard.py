@@ -12,7 +12,7 @@ import treadwell
 from treadwell.errors import CoreError, InputError
 from treadwell.guard import Guard, blamed
 from treadwell.plugins import METHODS
-from treadwell.protocols import Decision, Footstep, Plan
+from treadwell.protocols import Decision, Footstep, ListedStep, Plan
 
 STEP = Footstep("left", 0.04, 0.042, 0.0, 0.0, -0.05, 0.05)
 SHORT = ("time_limit=0.6", "navigation.call_limit=0.3")
@@ -167,12 +167,21 @@ def test_a_view_that_makes_no_sense_is_refused(view: View, message: str) -> None
             pass
 
 
+LISTED = ListedStep("left", 0.0, 0.0, 0.0)
+
+
 @pytest.mark.parametrize(
     ("slot", "method", "answer", "message"),
     [
         ("localizer", "estimate", (1e9, 0.0, 0.0, 0.0), "estimate must be finite and within"),
         ("planner", "plan", Plan(np.full((2, 2), 1e9)), "path must be finite and within"),
         ("planner", "plan", Plan(np.zeros((100_001, 2))), "path may have 100000 points at most"),
+        (
+            "planner",
+            "plan",
+            Plan(np.zeros((2, 2)), footsteps=(LISTED,) * 1001),
+            "1000 footsteps at most",
+        ),
         ("behaviour", "next", Decision("x", velocity=(1e9, 0.0, 0.0)), "velocity must be finite"),
         ("behaviour", "next", Decision("x", gaze=(0.0, 1e9)), "gaze must be finite and within"),
         ("behaviour", "next", Decision("x" * 101), "100 characters at most"),

@@ -65,6 +65,24 @@ fn something(answer: &Bound<'_, PyAny>, of: &str, wanted: &str) -> PyResult<()> 
     Ok(())
 }
 
+/// Footsteps that a part of the user's may list at once.
+const MOST_FOOTSTEPS: usize = 1000;
+
+/// Reads the footsteps that a part of the user's lists; their number is looked at first.
+fn listed_footsteps<'py, T>(answer: &Bound<'py, PyAny>, of: &str, wanted: &str) -> PyResult<Vec<T>>
+where
+    Vec<T>: FromPyObjectOwned<'py>,
+{
+    let at = (of, "footsteps");
+    let listed: Bound<'_, PyAny> = attribute(answer, at, wanted)?;
+    match listed.len() {
+        Ok(count) if count > MOST_FOOTSTEPS => Err(PyValueError::new_err(format!(
+            "there may be {MOST_FOOTSTEPS} footsteps at most, got {count}"
+        ))),
+        _ => attribute(answer, at, wanted),
+    }
+}
+
 /// Reads an attribute of what a part of the user's returned. What is missing or of another type is told by its name, with what is
 /// `wanted` there.
 fn attribute<'py, T: FromPyObjectOwned<'py>>(

@@ -8,7 +8,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::intern;
 use pyo3::prelude::*;
 
-use super::{attribute, check_within, sentence, something};
+use super::{attribute, check_within, listed_footsteps, sentence, something};
 use crate::situation::PySituation;
 use crate::stairs::{FlatFootstep, footstep};
 
@@ -24,7 +24,6 @@ const MOST_STATES: usize = 256;
 const LONGEST_NAME: usize = 100;
 /// What no velocity, angle or length of a decision is beyond, m, rad and s.
 const LARGEST: f64 = 100.0;
-const MOST_FOOTSTEPS: usize = 1000;
 
 /// Wraps an object with the method of `treadwell.protocols.Behaviour`.
 pub(crate) fn behaviour(object: Py<PyAny>) -> Box<dyn Behaviour> {
@@ -88,14 +87,7 @@ fn read_motion(answer: &Bound<'_, PyAny>) -> PyResult<Motion> {
     let velocity: Option<[f64; 3]> =
         attribute(answer, (OF, "velocity"), "(m/s, m/s, rad/s) or None")?;
     let wanted = "a sequence of Footstep";
-    let listed: Bound<'_, PyAny> = attribute(answer, (OF, "footsteps"), wanted)?;
-    let count = listed.len()?;
-    if count > MOST_FOOTSTEPS {
-        return Err(PyValueError::new_err(format!(
-            "there may be {MOST_FOOTSTEPS} footsteps at most, got {count}"
-        )));
-    }
-    let listed: Vec<FlatFootstep> = attribute(answer, (OF, "footsteps"), wanted)?;
+    let listed: Vec<FlatFootstep> = listed_footsteps(answer, OF, wanted)?;
     if !listed.is_empty() {
         return match velocity {
             None => listed

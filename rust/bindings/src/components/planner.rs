@@ -10,7 +10,9 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use stairs::Staircase;
 
-use super::{FARTHEST_M, attribute, check_within, forget_if, sentence, something};
+use super::{
+    FARTHEST_M, attribute, check_within, forget_if, listed_footsteps, sentence, something,
+};
 use crate::floor_view::PyFloorView;
 use crate::products::flat;
 use crate::situation::PyGoal;
@@ -18,9 +20,6 @@ use crate::stairs::{PyStaircase, side};
 
 /// Points that a path can have at most: 4 km in steps of a cell.
 const MOST_POINTS: usize = 100_000;
-
-/// Footsteps that a plan can list at most.
-const MOST_FOOTSTEPS: usize = 1000;
 
 struct PythonPlanner {
     object: Py<PyAny>,
@@ -101,13 +100,7 @@ fn read_footsteps(plan: &Bound<'_, PyAny>) -> PyResult<Vec<ListedStep>> {
         return Ok(Vec::new());
     }
     let wanted = "a sequence of ListedStep (side, x m, y m, yaw rad)";
-    let listed: Vec<(String, f64, f64, f64)> = attribute(plan, ("plan()", "footsteps"), wanted)?;
-    if listed.len() > MOST_FOOTSTEPS {
-        let (most, found) = (MOST_FOOTSTEPS, listed.len());
-        return Err(PyValueError::new_err(format!(
-            "footsteps may be {most} at most, got {found}"
-        )));
-    }
+    let listed: Vec<(String, f64, f64, f64)> = listed_footsteps(plan, "plan()", wanted)?;
     let mut steps = Vec::with_capacity(listed.len());
     for (name, x_m, y_m, yaw_rad) in listed {
         check_within("footsteps", [x_m, y_m, yaw_rad], FARTHEST_M)?;
