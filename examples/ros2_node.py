@@ -1,22 +1,74 @@
 """A node of ROS 2 between a robot's topics and `treadwell serve`.
 
     treadwell serve --robot qrio --socket core.sock &
-    python examples/ros2_node.py --ros-args -p server:=core.sock -p goal:="[2.0, 0.0]"
+    python3 ros2_node.py --ros-args -p server:=core.sock -p goal:="[2.0, 0.0]"
 
-Each joint state is a control tick, 10 ms after the last one; what came before it of the other
-topics goes with it. Stamps are of one clock.
+It runs in the interpreter of ROS 2, Python 3.8 or later with any numpy, and imports no treadwell:
+that may live in an environment of its own, or on another machine. `server` is a socket file, or
+PORT or HOST:PORT of a server behind `--tcp` (of another machine by `ssh -L`).
+
+Joint states are control ticks: those that come sooner than a tick after the last are left out.
+What came before of the other topics goes with them. Stamps are of one clock.
 """
 
-from pathlib import Path
+import json
+import math
+import socket
+import struct
 
 import numpy as np
 import rclpy
 from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import CameraInfo, Image, Imu, JointState
 from std_msgs.msg import Float64MultiArray, String
 
-from treadwell.observation import Frame, Observation
-from treadwell.serving.client import Client
+
+class Core:
+    """A connection to the server, as docs/how_to/serve.md tells the protocol."""
+
+    def __init__(self, server: str, timeout_s: float, goal: list) -> None:
+        """Connect and say hello; `robot` is what the server says of the robot."""
+        host, _, port = server.rpartition(":")
+        if port.isdigit():
+            self.socket = socket.create_connection((host or "127.0.0.1", int(port)), timeout_s)
+        else:
+            self.socket = socket.socket(socket.AF_UNIX)
+            self.socket.settimeout(timeout_s)
+            self.socket.connect(server)
+        self.stream = self.socket.makefile("rb")
+        try:
+            self.robot = self.ask({"type": "hello", "protocol": 1, "goal": {"position": goal}})
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """End the connection."""
+        self.stream.close()
+        self.socket.close()
+
+    def ask(self, header: dict, **arrays: np.ndarray) -> dict:
+        """Send a message, and return its answer, arrays and all."""
+        listed = [{"name": n, "dtype": a.dtype.name, "shape": a.shape} for n, a in arrays.items()]
+        text = json.dumps({**header, "arrays": listed}).encode()
+        numbers = [a.astype(a.dtype.newbyteorder("<")).tobytes() for a in arrays.values()]
+        self.socket.sendall(struct.pack("<Q", len(text)) + text + b"".join(numbers))
+        answer = json.loads(self.read(*struct.unpack("<Q", self.read(8))))
+        if answer["type"] == "error":
+            raise RuntimeError("the server: " + answer["message"])
+        for each in answer.pop("arrays"):
+            kind = np.dtype(each["dtype"]).newbyteorder("<")
+            data = self.read(kind.itemsize * math.prod(each["shape"]))
+            answer[each["name"]] = np.frombuffer(data, kind).reshape(each["shape"])
+        return answer
+
+    def read(self, size: int) -> bytes:
+        """Return so many bytes of the answer."""
+        data = self.stream.read(size)
+        if len(data) < size:
+            raise RuntimeError("the server has gone")
+        return data
 
 
 class TreadwellNode(Node):
@@ -25,16 +77,21 @@ class TreadwellNode(Node):
     def __init__(self) -> None:
         """Connect to the server and to the topics."""
         super().__init__("treadwell")
-        server = self.declare_parameter("server", "core.sock").value
+        server = str(self.declare_parameter("server", "core.sock").value)
+        timeout_s = self.declare_parameter("timeout", 30.0).value
         goal = self.declare_parameter("goal", [2.0, 0.0]).value
-        self.core = Client(Path(server), goal={"position": list(goal)})
+        self.core = Core(server, timeout_s, list(goal))
         self.joints = self.core.robot["joints"]
-        self.begins_ns = self.camera = self.imu = self.feet = self.depth = None
-        self.create_subscription(CameraInfo, "depth/camera_info", self.on_camera, 10)
-        self.create_subscription(Image, "depth/image", self.on_image, 10)
-        self.create_subscription(Imu, "imu", self.on_imu, 10)
-        self.create_subscription(Float64MultiArray, "foot_forces", self.on_feet, 10)
-        self.create_subscription(JointState, "joint_states", self.on_joints, 10)
+        self.begins_ns = self.tick = self.camera = self.imu = self.feet = self.depth = None
+        # This quality of service hears publishers of either kind.
+        for kind, topic, hear in (
+            (CameraInfo, "depth/camera_info", self.on_camera),
+            (Image, "depth/image", self.on_image),
+            (Imu, "imu", self.on_imu),
+            (Float64MultiArray, "foot_forces", self.on_feet),
+            (JointState, "joint_states", self.on_joints),
+        ):
+            self.create_subscription(kind, topic, hear, qos_profile_sensor_data)
         self.targets = self.create_publisher(JointState, "joint_targets", 10)
         self.state = self.create_publisher(String, "treadwell_state", 10)
 
@@ -61,36 +118,61 @@ class TreadwellNode(Node):
 
     def on_feet(self, forces: Float64MultiArray) -> None:
         """Keep eight forces, N: of each foot front left, front right, rear left, rear right."""
-        self.feet = np.array(forces.data).reshape(2, 4)
+        self.feet = np.array(forces.data, float).reshape(2, 4)
 
     def on_joints(self, joints: JointState) -> None:
         """One control tick."""
         if self.imu is None or self.feet is None or self.camera is None:
             return  # not all senses have spoken yet
         self.begins_ns = stamp_ns(joints) if self.begins_ns is None else self.begins_ns
-        now, at = stamp_ns(joints) - self.begins_ns, [joints.name.index(n) for n in self.joints]
+        now = stamp_ns(joints) - self.begins_ns
+        tick = round(now / self.core.robot["tick_ns"])
+        if self.tick is not None and tick <= self.tick:
+            return  # a robot that tells its joints more often than the core ticks
+        self.tick, at = tick, [joints.name.index(name) for name in self.joints]
+        rates, force = self.imu.angular_velocity, self.imu.linear_acceleration
         seen, self.depth = self.depth, None
-        exposed = None if seen is None else seen[0] - self.begins_ns
-        frame = None if exposed is None or exposed < 0 else Frame(exposed, now, seen[1])
-        turn, force = self.imu.angular_velocity, self.imu.linear_acceleration
-        positions, velocities = (np.array(a)[at] for a in (joints.position, joints.velocity))
-        rates, forces = np.array([turn.x, turn.y, turn.z]), np.array([force.x, force.y, force.z])
-        told = self.core.tick(
-            Observation(now, positions, velocities, rates, forces, self.feet, frame)
+        times, frame = {"type": "observation", "time_ns": now}, {}
+        if seen is not None and seen[0] >= self.begins_ns:
+            exposed = min(seen[0] - self.begins_ns, now)
+            times.update(exposure_ns=exposed, arrival_ns=now)
+            frame = {"depth": seen[1]}
+        told = self.core.ask(
+            times,
+            joint_positions=np.array(joints.position)[at],
+            joint_velocities=np.array(joints.velocity)[at],
+            angular_velocity=np.array([rates.x, rates.y, rates.z]),
+            specific_force=np.array([force.x, force.y, force.z]),
+            foot_forces=self.feet,
+            **frame,
         )
         answer = JointState(name=self.joints)
         answer.header.stamp = joints.header.stamp
-        answer.position, answer.velocity = told.position.tolist(), told.velocity.tolist()
-        answer.effort = told.torque.tolist()
+        answer.position, answer.velocity = told["position"].tolist(), told["velocity"].tolist()
+        answer.effort = told["torque"].tolist()
         self.targets.publish(answer)
-        self.state.publish(String(data=told.outcome or told.state))
+        self.state.publish(String(data=told["outcome"] or told["state"]))
+
+    def close(self) -> None:
+        """Say goodbye."""
+        self.core.ask({"type": "goodbye"})
+        self.core.close()
 
 
-def stamp_ns(message: JointState | Image) -> int:
+def stamp_ns(message: "JointState | Image") -> int:
     """Return when a message's content was measured, ns."""
     return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
 
 
-if __name__ == "__main__":
+def main() -> None:
+    """Run the node until Ctrl-C."""
     rclpy.init()
-    rclpy.spin(TreadwellNode())
+    node = TreadwellNode()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        node.close()
+
+
+if __name__ == "__main__":
+    main()

@@ -75,6 +75,10 @@ class String:
     data: str = ""
 
 
+SENSOR_DATA = object()
+"""A quality of service that hears publishers of either kind: the others do not."""
+
+
 class Publisher:
     def __init__(self) -> None:
         self.sent: list[Any] = []
@@ -97,9 +101,9 @@ class Node:
         return SimpleNamespace(value=self.parameters.get(name, default))
 
     def create_subscription(
-        self, kind: type, topic: str, callback: Callable[[Any], None], depth: int
+        self, kind: type, topic: str, callback: Callable[[Any], None], quality: object
     ) -> None:
-        assert depth > 0
+        assert quality is SENSOR_DATA
         self.heard[topic] = (kind, callback)
 
     def create_publisher(self, kind: type, topic: str, depth: int) -> Publisher:
@@ -117,6 +121,7 @@ class Node:
 MODULES: dict[str, tuple[type, ...]] = {
     "rclpy": (),
     "rclpy.node": (Node,),
+    "rclpy.qos": (),
     "sensor_msgs": (),
     "sensor_msgs.msg": (CameraInfo, Image, Imu, JointState),
     "std_msgs": (),
@@ -133,6 +138,7 @@ def stand_in(parameters: dict[str, Any]) -> Iterator[None]:
         for kind in kinds:
             setattr(made, kind.__name__, kind)
         sys.modules[name] = made
+    sys.modules["rclpy.qos"].__dict__["qos_profile_sensor_data"] = SENSOR_DATA
     Node.parameters = parameters
     try:
         yield

@@ -1,7 +1,13 @@
 """The example of a node of ROS 2, on a stand-in for `rclpy`, against a server: the same targets."""
 
+import ast
 import importlib.util
+import os
+import signal
+import subprocess
+import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -30,6 +36,11 @@ from treadwell.replaying.difference import between_answers
 from treadwell.serving.served import ServedRobot
 
 EXAMPLE = Path(__file__).resolve().parent.parent / "examples" / "ros2_node.py"
+TALKER = Path(__file__).with_name("ros2_talker.py")
+ROS2 = os.environ.get("TREADWELL_ROS2")
+"""An interpreter that has `rclpy` and the messages: one of ROS 2, or `pip install ros-rclpy`."""
+OLDEST = (3, 8)
+"""Python of the oldest ROS 2 that is still found on robots."""
 BEGAN_NS = 1_700_000_000_123_456_789
 """Of the robot's clock, which did not begin with the run."""
 pytestmark = pytest.mark.slow
@@ -59,7 +70,7 @@ def node(tmp_path: Path) -> Iterator[Any]:
     with running(ServedRobot("qrio"), address), stand_in({"server": str(address)}):
         made = example().TreadwellNode()
         yield made
-        made.core.close()
+        made.close()
 
 
 def header(time_ns: int) -> Header:
@@ -144,3 +155,74 @@ def test_images_are_read_in_either_order_and_unit(
     assert at == BEGAN_NS + 5
     np.testing.assert_allclose(read, depth, rtol=1e-6)
     assert read.dtype == np.float32
+
+
+def test_a_robot_that_tells_its_joints_twice_a_tick_is_answered_once(
+    node: Any,  # noqa: ANN401 - of a module that is loaded here
+    log: Path,
+) -> None:
+    names = node.core.robot["joints"]
+    node.hear("depth/camera_info", camera_info(node))
+    for seen, _ in zip(read_observations(log), range(5), strict=False):
+        tell(node, seen, names)
+        between = replace(seen, time_ns=seen.time_ns + node.core.robot["tick_ns"] // 4, depth=None)
+        tell(node, between, names)
+    assert len(node.published["joint_targets"].sent) == 5
+
+
+def test_the_node_needs_python_3_8_numpy_and_ros_2_alone() -> None:
+    tree = ast.parse(EXAMPLE.read_text(), feature_version=OLDEST)
+    imported = {
+        alias.name if isinstance(one, ast.Import) else str(one.module)
+        for one in ast.walk(tree)
+        if isinstance(one, ast.Import | ast.ImportFrom)
+        for alias in one.names
+    }
+    of_ros2 = {"rclpy", "sensor_msgs", "std_msgs"}
+    others = {name.partition(".")[0] for name in imported} - of_ros2 - {"numpy"}
+    assert others <= sys.stdlib_module_names, others
+
+
+def test_what_the_server_refuses_is_said_by_the_node(tmp_path: Path) -> None:
+    address = tmp_path / "core.sock"
+    with (
+        running(ServedRobot("qrio"), address),
+        stand_in({"server": str(address), "goal": [2.0]}),
+        pytest.raises(RuntimeError, match=r"the server: .*goal"),
+    ):
+        example().TreadwellNode()
+
+
+@pytest.mark.skipif(not ROS2, reason="TREADWELL_ROS2 names no interpreter with rclpy")
+def test_by_ros_2_itself_a_recorded_run_has_the_same_targets_bit_for_bit(
+    tmp_path: Path, log: Path
+) -> None:
+    address, told = tmp_path / "core.sock", tmp_path / "told.npz"
+    seen = list(read_observations(log))
+    names = ("joint_positions", "joint_velocities", "angular_velocity", "specific_force")
+    arrays = {name: np.array([getattr(one, name) for one in seen]) for name in names}
+    arrays["foot_forces"] = np.array([one.foot_forces.ravel() for one in seen])
+    arrays["time_ns"] = np.array([one.time_ns for one in seen])
+    pictures = {i: one.depth for i, one in enumerate(seen) if one.depth is not None}
+    arrays["pictured"] = np.array(list(pictures))
+    arrays["exposure_ns"] = np.array([one.exposure_ns for one in pictures.values()])
+    arrays["depth"] = np.array([one.depth for one in pictures.values()])
+    served = ServedRobot("qrio")
+    arrays["names"] = np.array(list(served.robot.joints))
+    camera = served.hello()["camera"]
+    arrays["camera"] = np.array([camera[k] for k in ("width", "height", "fx", "fy", "cx", "cy")])
+    np.savez(told, **arrays)
+    alone = {"PATH": os.environ["PATH"], "ROS_LOG_DIR": str(tmp_path), "ROS_DOMAIN_ID": "77"}
+    parameters = ["--ros-args", "-p", f"server:={address}", "-p", "goal:=[2.0, 0.0]"]
+    with running(served, address):
+        node = subprocess.Popen([str(ROS2), EXAMPLE, *parameters], env=alone, cwd=tmp_path)
+        try:
+            subprocess.run([str(ROS2), TALKER, told], env=alone, check=True, timeout=300)
+        finally:
+            node.send_signal(signal.SIGINT)
+            assert node.wait(20) == 0
+    heard = np.load(f"{told}.heard.npz")
+    for tick, (one, recorded) in enumerate(zip(seen, read_answers(log), strict=False)):
+        targets = (heard[name][tick] for name in ("position", "velocity", "effort"))
+        answer = (encode_command(one.time_ns, *targets), recorded[1])
+        assert between_answers(answer, recorded, arrays["names"].tolist()) is None, tick
