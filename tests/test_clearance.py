@@ -52,8 +52,34 @@ def test_the_robots_cylinder_is_swept_past_what_stands_in_its_height(tmp_path: P
     file.write_text(SCENARIO)
     scenario, robot = load_scenario(file), load_robot("qrio")
     course = build_course(scenario, robot)
-    path = np.array([[0.0, 0.0], [2.0, 0.0]])
+    path = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]])
     # The box overhead hangs above the robot; the other one begins at y = 0.4.
     expected = 0.4 - robot.file.body.radius
-    assert least_clearance(course, robot, path) == pytest.approx(expected)
-    assert least_clearance(course, robot, np.empty((0, 2))) is None
+    assert least_clearance(course, robot, [path]) == pytest.approx(expected)
+    assert least_clearance(course, robot, [np.empty((0, 3))]) is None
+    assert least_clearance(course, robot, []) is None
+
+
+def test_a_robot_that_is_carried_over_a_box_came_past_it_on_neither_side(tmp_path: Path) -> None:
+    file = tmp_path / "clearance.toml"
+    file.write_text(SCENARIO)
+    scenario, robot = load_scenario(file), load_robot("qrio")
+    course = build_course(scenario, robot)
+    before = np.array([[1.0, -0.5, 0.0], [1.0, -0.4, 0.0]])
+    after = np.array([[1.0, 1.2, 0.0], [1.0, 1.3, 0.0]])
+    expected = 0.6 - robot.file.body.radius  # the box ends at y = 0.6
+    assert least_clearance(course, robot, [before, after]) == pytest.approx(expected)
+    assert least_clearance(course, robot, [np.vstack([before, after])]) < 0.0
+
+
+def test_what_stands_on_the_floor_below_is_not_in_the_way_and_what_hangs_above_is(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "clearance.toml"
+    file.write_text(SCENARIO)
+    scenario, robot = load_scenario(file), load_robot("qrio")
+    course = build_course(scenario, robot)
+    way = np.array([[0.0, 0.5, 0.5], [2.0, 0.5, 0.5]])  # as on a platform of 50 cm
+    # The box below ends at 30 cm; the one above begins at 1 m, and at y = 0.1 on this side.
+    expected = 0.4 - robot.file.body.radius
+    assert least_clearance(course, robot, [way]) == pytest.approx(expected)

@@ -1,12 +1,14 @@
 """Claims about the judge: falls, arrival, stillness, being stuck, and that it changes nothing."""
 
 import math
+from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 from episode_builders import STEP, World, qrio, world
 
+from treadwell.episode import Episode
 from treadwell.judging.judge import STUCK_SECONDS, Judge
 from treadwell.protocols import JointTargets
 
@@ -155,6 +157,23 @@ def test_the_paths_length_is_that_of_the_way_without_its_sways() -> None:
         judge.watch(data, 0.01 * tick)
         data.xpos[:, 1] -= sway
     assert judge.path_length == pytest.approx(1.0, rel=0.05)
+
+
+def test_a_robot_that_is_carried_has_neither_walked_nor_climbed_what_lies_between(
+    tmp_path: Path,
+) -> None:
+    carried = '[[event]]\nat = 0.5\ndo = "kidnap"\nposition = [1.0, 0.0]\nyaw = 0.0\n'
+    file = tmp_path / "carried.toml"
+    file.write_text(
+        f'schema = 1\nname = "carried"\n[start]\n[goal]\nposition = [2.0, 0.0]\n{STEP}{carried}'
+    )
+    episode = Episode(file)
+    for _ in range(100):
+        episode.tick()
+    judge = episode.judge
+    assert judge.frame.x == pytest.approx(1.0, abs=0.05)
+    assert judge.path_length < 0.1
+    assert (judge.stairs_climbed, judge.stairs_descended) == (0, 0)
 
 
 def test_watching_leaves_the_physics_as_it_is() -> None:

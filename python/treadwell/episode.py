@@ -196,6 +196,8 @@ class Episode:
         outcome, reason, footsteps = tick.outcome, tick.reason, tick.footsteps
         if self.course.events:
             self.events.before_tick(simulation)
+            if self.events.carried:
+                self.judge.begin_elsewhere()
             self._tell_senses(time_ns)
         told = self._told(command, time_ns) if self.course.events else command
         begin = perf_counter()

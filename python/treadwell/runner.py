@@ -6,6 +6,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+import numpy as np
+
 from treadwell.episode import Episode
 from treadwell.errors import CoreError, ShellLimitError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
@@ -20,6 +22,7 @@ from treadwell.progress import Progress
 from treadwell.recording.rhythm import Rhythm
 from treadwell.recording.run_folder import run_folder
 from treadwell.recording.tracing import trace_of
+from treadwell.recording.trajectory import jumps
 from treadwell.recording.writers import NoWriters, Writers, open_viewer
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.overrides import Overrides
@@ -35,8 +38,8 @@ class Run:
     Attributes:
         result: as in `result.json`.
         folder: where everything lies.
-        least_clearance: m, room between the robot's cylinder and what stood on its way; None
-            where nothing did.
+        least_clearance: m, room between the robot's cylinder and what stood on its way, as far as
+            it went on its feet; None where nothing did.
         steps: what was known of each step before it was climbed.
         tops: the surfaces of steps that the robot knew in the end.
         remembered: what the map last said of every cell.
@@ -162,8 +165,10 @@ def run_episode(
         ways = (scores.estimate, scores.truth)
         feet = (scores.stairs, scores.footsteps)
         writers.finish(result, *ways, remembered, feet, problem)
-    way = scores.truth.positions()[:, :2]
-    clearance = least_clearance(episode.course, episode.robot, way)
+    # No robot walks farther than a sole is long between two frames: it was carried.
+    carried = jumps(scores.truth.rows, episode.robot.file.legs.left.sole.length)
+    walked = np.split(scores.truth.positions(), carried)
+    clearance = least_clearance(episode.course, episode.robot, walked)
     findings = None if scores.watch is None else scores.watch.findings()
     return Run(
         result,

@@ -57,6 +57,7 @@ class Events:
         present: names of the elements that are there now.
         faults: what has broken, each with the time in seconds at which it is whole again.
         knocks: how the camera was turned since somebody took them out, in order.
+        carried: whether the robot was put elsewhere before this tick.
         fired: (time in seconds, `do`) of what has happened, in order, for the record.
     """
 
@@ -72,6 +73,7 @@ class Events:
         self.present = {element.name for element in course.elements if element.present}
         self.faults: list[tuple[Fault, float]] = []
         self.knocks: list[Knock] = []
+        self.carried = False
         self.fired: list[tuple[float, str]] = []
         self._course = course
         self._pending: list[tuple[int, Event]] = list(enumerate(course.events))
@@ -87,6 +89,7 @@ class Events:
 
     def before_tick(self, physics: Physics) -> None:
         """Do what is due before the physics goes on by one control tick."""
+        self.carried = False
         if not (self._pending or self._pushes or self._motions or self._swings):
             return
         time = physics.steps * physics.model.opt.timestep
@@ -226,6 +229,7 @@ class Events:
         pose[2] += after - before
         pose[3:7] = turned
         physics.set("qpos", positions)
+        self.carried = True
 
     def _surface(self, x: float, y: float, z: float, height: float | None) -> float:
         """Return the surface at a point: the one named, or the highest that lies below `z`."""

@@ -112,6 +112,12 @@ class Judge:
         left_foot.look(*soles[0][:3], touching=on_left)
         right_foot.look(*soles[1][:3], touching=on_right)
 
+    def begin_elsewhere(self) -> None:
+        """Go on after the robot was carried: what lies between it neither walked nor climbed."""
+        self._path_point = None
+        for foot in self._levels.feet:
+            foot.begin_elsewhere()
+
     @property
     def fallen(self) -> bool:
         """Whether the robot lies or topples now."""

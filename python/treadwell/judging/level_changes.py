@@ -54,6 +54,10 @@ class FootTrack:
         if self._looks == LOOKS_A_FOOTPRINT:
             self._step_to((x, y, z))
 
+    def begin_elsewhere(self) -> None:
+        """Forget the footprints: what lies between the last and the next was not walked."""
+        self._prints, self._last, self._looks = [], (0, 0), 0
+
     def _step_to(self, end: Footprint) -> None:
         if self._takes_back(end):
             self.rises -= self._last[0]
