@@ -41,6 +41,7 @@ TESTED_BY = {
     "version": "test_bindings.py",
     "cli.compare": "test_comparison.py",
     "dependencies": "test_class_hash.py",
+    "quiet_definitions": "test_class_hash.py",
     "comparing.tables": "test_comparison.py",
     "cli.list_verbs": "test_reference.py",
     "cli.options": "test_cli.py",

@@ -190,6 +190,78 @@ def test_a_module_of_the_users_that_is_imported_counts(sources: Sources, importe
     assert sources.hash("hashed_main:Mine", hashed_helper="STEP = 2\n") != before
 
 
+BASES = """
+class Grid:
+    def way(self):
+        return [1.0]
+
+class Aside:
+    def way(self):
+        return [2.0]
+"""
+DERIVED = """
+from hashed_bases import Grid
+
+class Mine(Grid):
+    def plan(self): return self.way()
+
+class Other(Grid):
+    def plan(self): return []
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "edited"),
+    [
+        ("return []", "return [3.0]", False),  # a neighbour that has the base of another file, too
+        ("[2.0]", "[3.0]", False),  # a neighbour of the base
+        ("class Aside:", "class Aside(Grid):", False),
+        ("[1.0]", "[3.0]", True),
+        ("class Aside:", "class Aside(metaclass=Meta):", True),
+        ("    def way(self):\n        return [1.0]", "    way = register()", True),
+    ],
+)
+def test_of_a_base_in_another_file_what_is_used_counts(
+    sources: Sources, old: str, new: str, edited: bool
+) -> None:
+    texts = {"hashed_bases": BASES, "hashed_derived": DERIVED}
+    before = sources.hash("hashed_derived:Mine", **texts)
+    changed = {name: text.replace(old, new) for name, text in texts.items()}
+    assert changed != texts
+    assert (sources.hash("hashed_derived:Mine", **changed) != before) == edited
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "import hashed_bases",
+        "from hashed_bases import *",
+        "CHOSEN = __import__('hashed_bases')",
+        "def f():\n    import hashed_bases as all_of_it\n",
+    ],
+)
+def test_who_has_a_whole_module_may_use_all_of_it(sources: Sources, line: str) -> None:
+    texts = {"hashed_bases": BASES, "hashed_derived": f"{DERIVED}{line}\n"}
+    before = sources.hash("hashed_derived:Mine", **texts)
+    texts["hashed_bases"] = BASES.replace("[2.0]", "[3.0]")
+    assert sources.hash("hashed_derived:Mine", **texts) != before
+
+
+def test_a_base_that_sees_its_subclasses_counts_from_another_file_too(sources: Sources) -> None:
+    hooked = BASES.replace("class Grid:", "class Grid:\n    def __init_subclass__(cls): pass")
+    texts = {"hashed_bases": hooked, "hashed_derived": DERIVED}
+    before = sources.hash("hashed_derived:Mine", **texts)
+    texts["hashed_derived"] = DERIVED.replace("return []", "return [3.0]")
+    assert sources.hash("hashed_derived:Mine", **texts) != before
+
+
+def test_a_neighbour_with_a_base_of_the_package_does_not_count(sources: Sources) -> None:
+    text = DERIVED.replace("hashed_bases import Grid", "treadwell.protocols import Planner as Grid")
+    before = sources.hash("hashed_derived:Mine", hashed_derived=text)
+    edited = text.replace("return []", "return [3.0]")
+    assert sources.hash("hashed_derived:Mine", hashed_derived=edited) == before
+
+
 @pytest.mark.parametrize("found", [False, True])
 def test_of_a_package_what_is_imported_counts_and_all_of_it_where_that_cannot_be_told(
     folder: Path, found: bool
@@ -239,8 +311,8 @@ def test_words_put_anywhere_between_lines_change_nothing(data: st.DataObject) ->
     from treadwell.class_hash import _meaning
 
     lines = PLANNERS.splitlines()
-    before = _meaning(ast.parse(PLANNERS), "Mine")
+    before = _meaning(ast.parse(PLANNERS), frozenset({"Mine"}))
     for _ in range(4):
         at = data.draw(st.integers(0, len(lines)))
         lines.insert(at, data.draw(st.sampled_from(["", "# words", "    # words", "\t"])))
-    assert _meaning(ast.parse("\n".join(lines)), "Mine") == before
+    assert _meaning(ast.parse("\n".join(lines)), frozenset({"Mine"})) == before

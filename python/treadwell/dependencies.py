@@ -36,12 +36,20 @@ class Module:
         content: of its file.
         tree: of its source; None of what is no Python that could be read.
         imports: dotted names of modules, as far as they can be told, that its source names.
+        taken: (module, name) of each `from module import name`; the name is a star where all is.
+        package: in which it is: what a relative import begins from.
     """
 
     name: str
     content: bytes
     tree: ast.Module | None
     imports: frozenset[str]
+    taken: frozenset[tuple[str, str]] = frozenset()
+    package: str = ""
+
+    def origin(self, node: ast.ImportFrom) -> str:
+        """Return the module from which one of its own statements imports; "" where none is."""
+        return _origin(node, self.package)
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +130,22 @@ def _module(located: Located) -> Module:
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return Module(located.name, content, None, frozenset())
     package = located.name if located.folders is not None else located.name.rpartition(".")[0]
-    return Module(located.name, content, tree, frozenset(_imports(tree, package)))
+    imports = frozenset(_imports(tree, package))
+    return Module(located.name, content, tree, imports, frozenset(_taken(tree, package)), package)
+
+
+def _taken(tree: ast.Module, package: str) -> Iterator[tuple[str, str]]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom):
+            yield from ((_origin(node, package), alias.name) for alias in node.names)
+
+
+def _origin(node: ast.ImportFrom, package: str) -> str:
+    if not node.level:
+        return node.module or ""
+    words = package.split(".")
+    base = ".".join(words[: len(words) - node.level + 1])
+    return f"{base}.{node.module or ''}".strip(".")
 
 
 def _imports(tree: ast.Module, package: str) -> Iterator[str]:
@@ -133,11 +156,7 @@ def _imports(tree: ast.Module, package: str) -> Iterator[str]:
                 yield alias.name
                 yield from _packages(alias.name)
         elif isinstance(node, ast.ImportFrom):
-            origin = node.module or ""
-            if node.level:
-                words = package.split(".")
-                base = ".".join(words[: len(words) - node.level + 1])
-                origin = f"{base}.{origin}".strip(".")
+            origin = _origin(node, package)
             if not origin:
                 continue
             yield origin
