@@ -130,6 +130,22 @@ def test_no_line_joins_places_between_which_the_robot_cannot_have_walked(tmp_pat
     assert np.diff(broken).max() > 100
 
 
+def test_where_the_robot_knew_that_it_was_lost_no_believed_way_is_drawn(tmp_path: Path) -> None:
+    made = world()
+
+    def pink(*, lost: bool) -> int:
+        memory = StairMemory()
+        for i in range(20):
+            memory.update((), climbing=False, lost=lost and i < 19)
+        picture = tmp_path / "map.png"
+        told = caption_of(result(made.scenario))
+        draw_map(picture, made.course, told, grid(), way(0.1), way(-0.5), memory)
+        return has(pixels(picture)[: int(0.8 * len(pixels(picture)))], to_rgb("#ff5fa2"))
+
+    assert pink(lost=False) > 500
+    assert pink(lost=True) == 0
+
+
 @pytest.mark.parametrize("outcome", ["error", "interrupted"])
 def test_an_episode_that_ended_at_once_has_a_picture(tmp_path: Path, outcome: str) -> None:
     made = world()

@@ -3,7 +3,8 @@
 import numpy as np
 from episode_builders import flight
 
-from treadwell.recording.stair_memory import StairMemory, outline
+from treadwell.recording.stair_memory import StairMemory
+from treadwell.recording.steppable import outline
 from treadwell.trace import StairTrace
 
 

@@ -48,10 +48,12 @@ class Estimate:
     Attributes:
         pose: (x m, y m, z m, yaw rad) of the robot's frame in the map.
         odometry: the same by leg odometry alone.
+        lost: whether it knows that it does not know where it is; `pose` then means little.
     """
 
     pose: Pose
     odometry: Pose
+    lost: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -209,7 +211,7 @@ class Episode:
         return Step(
             time_ns,
             observation,
-            Estimate(tick.estimate, tick.odometry),
+            Estimate(tick.estimate, tick.odometry, tick.lost),
             command,
             tick.state,
             tuple([Footstep(*listed) for listed in footsteps]) if footsteps else (),

@@ -13,6 +13,7 @@ from treadwell.processor import processor
 from treadwell.recording.core_products import stairs_of
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.step_memory import StepMemory
+from treadwell.recording.steppable import step_limits
 from treadwell.recording.trajectory import Trajectory
 from treadwell.version import __version__
 
@@ -28,7 +29,7 @@ class Scores:
         self.poses = PoseErrors()
         self.estimate, self.truth = Trajectory(), Trajectory()
         self.memory = MapMemory()
-        self.stairs = StairMemory()
+        self.stairs = StairMemory(step_limits(episode.scenario, episode.robot))
         self.footsteps = StepMemory()
         self._plan: FootstepPlan | None = None
         self._plans = 0
@@ -50,7 +51,9 @@ class Scores:
         self.truth.add_level(step.time_ns, truth)
         forgotten = pilot.maps_forgotten
         stairs = stairs_of(pilot)
-        self.stairs.update(stairs, climbing=bool(step.footsteps), forgotten=forgotten)
+        self.stairs.update(
+            stairs, climbing=bool(step.footsteps), lost=believed.lost, forgotten=forgotten
+        )
         self._footsteps(step)
         self.memory.update(*pilot.floor(), forgotten=forgotten)
 

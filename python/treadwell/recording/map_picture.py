@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,7 +16,6 @@ from matplotlib.patches import Circle, Patch, Polygon
 from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
-from treadwell.course.course import Course
 from treadwell.files import whole_file
 from treadwell.judging.result import Result
 from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
@@ -28,6 +27,10 @@ from treadwell.recording.trajectory import Trajectory, jumps
 from treadwell.scenario.model import Goal
 from treadwell.scenario.scaling import multiplied
 from treadwell.scenario.types import Scale
+
+if TYPE_CHECKING:
+    # A map of somebody's data is drawn by the same functions without MuJoCo, which builds courses.
+    from treadwell.course.course import Course
 
 _UNKNOWN: Final = (0.80, 0.80, 0.82)
 _OBSTACLE: Final = (0.09, 0.09, 0.11)
@@ -69,7 +72,7 @@ def caption_of(result: Result) -> Caption:
 
 def draw_map(
     path: Path,
-    course: Course,
+    course: "Course",
     caption: Caption,
     remembered: RememberedMap,
     estimate: Trajectory,
@@ -109,9 +112,9 @@ def draw_map(
     axes.set_facecolor(_UNKNOWN)
     colours = draw_cells(axes, remembered, height_span(remembered))
     _draw_course(axes, course)
-    draw_stairs(axes, stairs.stairs)
+    draw_stairs(axes, *stairs.told_apart(remembered))
     stride = math.inf if footsteps is None else footsteps[1][0]
-    _draw_ways(axes, (estimate, truth), np.array(stairs.climbing, dtype=bool), stride)
+    _draw_ways(axes, (estimate, truth), stairs, stride)
     if footsteps is not None:
         draw_soles(axes, *footsteps)
     _draw_ends(axes, course, caption)
@@ -150,7 +153,7 @@ def draw_map(
 
 
 def _bounds(
-    course: Course, caption: Caption, remembered: RememberedMap, truth: Trajectory
+    course: "Course", caption: Caption, remembered: RememberedMap, truth: Trajectory
 ) -> tuple[float, float, float, float]:
     """Return west, east, south and north of what is worth seeing, m."""
     row, col = np.nonzero(remembered.kind != UNKNOWN)
@@ -200,7 +203,7 @@ def draw_cells(
     return colours
 
 
-def _draw_course(axes: Axes, course: Course) -> None:
+def _draw_course(axes: Axes, course: "Course") -> None:
     """Draw the outlines of everything that is there from the beginning; dashed what comes later."""
     for present, style in ((True, "-"), (False, "--")):
         pieces = [piece for e in course.elements if e.present == present for piece in e.pieces]
@@ -218,11 +221,17 @@ def draw_outlines(axes: Axes, outlines: Sequence[NDArray[np.float64]], style: st
 
 
 def _draw_ways(
-    axes: Axes, ways: tuple[Trajectory, Trajectory], climbing: NDArray[np.bool_], stride: float
+    axes: Axes, ways: tuple[Trajectory, Trajectory], told: StairMemory, stride: float
 ) -> None:
-    """Draw the believed way and the true one, and where the robot climbed on the first."""
+    """Draw the believed way and the true one, and where the robot climbed on the first.
+
+    Where the robot knew that it did not know its place, it believed nothing.
+    """
     estimate, truth = ways
-    true, believed = _with_gaps(truth, stride), _with_gaps(estimate, stride)
+    climbing = np.array(told.climbing, dtype=bool)
+    lost = np.zeros(len(estimate.rows), dtype=bool)
+    lost[: len(told.lost)] = told.lost[: len(lost)]
+    true, believed = _with_gaps(truth, stride), _with_gaps(estimate, stride, hidden=lost)
     back: dict[str, Any] = {
         "color": "black",
         "linewidth": 3.4,
@@ -247,7 +256,7 @@ def _with_gaps(
     return np.insert(places, jumps(way.rows, stride), np.nan, axis=0).T
 
 
-def _draw_ends(axes: Axes, course: Course, caption: Caption) -> None:
+def _draw_ends(axes: Axes, course: "Course", caption: Caption) -> None:
     goal = caption.goal
     for position in goal["via"]:
         axes.add_patch(

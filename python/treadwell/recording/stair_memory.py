@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
+from treadwell.map_memory import RememberedMap
+from treadwell.recording.steppable import StepLimits, contains, outline, told_apart
 from treadwell.trace import FLOOR_DEPTH, StairTrace
 
 _SAME_HEIGHT: Final = 0.012
@@ -18,28 +17,39 @@ class StairMemory:
     Attributes:
         stairs: the stairs; those that were never fitted as they were seen last.
         climbing: for each camera frame whether the feet took listed steps.
+        lost: for each whether the robot did not know where it was.
+        limits: which of them are stairs for the robot; None: all are.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, limits: StepLimits | None = None) -> None:
         """Begin with nothing."""
         self.stairs: list[StairTrace] = []
         self.climbing: list[bool] = []
+        self.lost: list[bool] = []
+        self.limits = limits
         self._forgotten = 0
         self._known: Sequence[StairTrace] = ()
 
     def update(
-        self, stairs: Sequence[StairTrace], *, climbing: bool, forgotten: int | None = None
+        self,
+        stairs: Sequence[StairTrace],
+        *,
+        climbing: bool,
+        lost: bool = False,
+        forgotten: int | None = None,
     ) -> None:
         """Take in the stairs of a camera frame.
 
         Args:
             stairs: those that the core sees or remembers.
             climbing: whether the feet took listed steps.
+            lost: whether the robot does not know where it is.
             forgotten: how often the core has forgotten its stairs (`Pilot.maps_forgotten`). Once
                 more than at the last frame: those that it knew then lie in the wrong place. None
                 where that is not known.
         """
         self.climbing.append(climbing)
+        self.lost.append(lost)
         if forgotten is not None and forgotten != self._forgotten:
             self._forgotten = forgotten
             self.stairs = [
@@ -54,11 +64,15 @@ class StairMemory:
                 self.stairs = [old for old in self.stairs if old not in same]
                 self.stairs.append(new)
 
+    def told_apart(self, remembered: RememberedMap) -> tuple[list[StairTrace], list[StairTrace]]:
+        """Return the stairs that the robot can step on or off, and those that are too high.
 
-def outline(stair: StairTrace) -> NDArray[np.float64]:
-    """Return a stair's corners from above, (4, 2) m: front left and right, back right and left."""
-    corners: NDArray[np.float64] = np.vstack([stair.front, stair.back[::-1]])[:, :2]
-    return corners
+        Args:
+            remembered: what the map said of the ground around them.
+        """
+        if self.limits is None:
+            return self.stairs, []
+        return told_apart(self.stairs, remembered, self.limits)
 
 
 def _is_same(one: StairTrace, other: StairTrace) -> bool:
@@ -67,11 +81,4 @@ def _is_same(one: StairTrace, other: StairTrace) -> bool:
     if abs(rise) > _SAME_HEIGHT:
         return False
     a, b = outline(one), outline(other)
-    return _contains(a, b.mean(axis=0)) or _contains(b, a.mean(axis=0))
-
-
-def _contains(corners: NDArray[np.float64], point: NDArray[np.float64]) -> bool:
-    """Say whether a point lies inside a convex polygon, whichever way round it is given."""
-    along, to = np.concatenate([corners[1:], corners[:1]]) - corners, point - corners
-    sides = along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]
-    return bool((sides >= 0.0).all() or (sides <= 0.0).all())
+    return contains(a, b.mean(axis=0)) or contains(b, a.mean(axis=0))

@@ -57,7 +57,9 @@ class Findings:
             self._frame(now, tick)
             forgotten = pilot.maps_forgotten
             stairs = stairs_of(pilot)
-            self.stairs.update(stairs, climbing=bool(tick.footsteps), forgotten=forgotten)
+            self.stairs.update(
+                stairs, climbing=bool(tick.footsteps), lost=tick.lost, forgotten=forgotten
+            )
             self.memory.update(*pilot.floor(), forgotten=forgotten)
         self.last = (observation, tick)
         self.ticks += 1
@@ -76,7 +78,7 @@ class Findings:
                 self.ticks -= 1
                 self._frame(observation.time_ns, tick)
                 # No picture, no other stairs.
-                self.stairs.update((), climbing=bool(tick.footsteps))
+                self.stairs.update((), climbing=bool(tick.footsteps), lost=tick.lost)
                 self.ticks += 1
         for _, time_ns, pose, _ in self.frames:
             self.estimate.add(time_ns, pose)

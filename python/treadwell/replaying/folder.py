@@ -50,6 +50,7 @@ def _draw(path: Path, scenario: Scenario, result: ReplayResult, found: Findings)
     from treadwell.course.build import build_course
     from treadwell.recording.map_picture import Caption, draw_map
     from treadwell.recording.step_memory import StepMemory
+    from treadwell.recording.steppable import step_limits
     from treadwell.robot.load import load_robot
 
     robot = load_robot(scenario.robot)
@@ -57,6 +58,7 @@ def _draw(path: Path, scenario: Scenario, result: ReplayResult, found: Findings)
     title = f"{result.scenario} · {result.robot} · seed {result.seed}"
     title += f"\nreplay of {result.simulated_seconds:.1f} s"
     caption = Caption(title, result.configuration["goal"])
+    found.stairs.limits = step_limits(scenario, robot)
     sole = robot.file.legs.left.sole
     soles = (StepMemory(), (sole.length, sole.width))
     remembered = found.memory.map()

@@ -66,6 +66,9 @@ pub(crate) struct PyTick {
     /// Pose of the robot in the map by leg odometry alone, from the same start.
     #[pyo3(get)]
     odometry: FlatPose,
+    /// Whether the localizer knows that it does not know where the robot is.
+    #[pyo3(get)]
+    lost: bool,
 }
 
 #[pymethods]
@@ -129,6 +132,7 @@ impl PyPilot {
             footsteps: flat_footsteps(&tick.decision.command.motion),
             estimate: flat(&tick.estimate.map_from_robot),
             odometry: flat(&tick.dead_reckoning),
+            lost: tick.estimate.lost,
         })
     }
 
