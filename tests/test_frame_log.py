@@ -11,8 +11,8 @@ from episode_builders import BOX, STEP, trace, world
 from rerun.chunk import RrdReader
 from test_recording import entities, recorder
 
+from treadwell.recording.file import NAME
 from treadwell.recording.frame_log import FrameLog
-from treadwell.recording.recorder import NAME
 
 FRAME = 80_000_000
 POINTS = [np.ones((2, 3), np.float32), np.zeros((0, 3), np.float32), np.eye(3, dtype=np.float32)]

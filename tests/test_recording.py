@@ -15,9 +15,9 @@ from treadwell.footstep_plan import FootstepPlan, PlannedFootstep
 from treadwell.protocols import Footstep
 from treadwell.recording import map_shapes
 from treadwell.recording import recorder as recording
-from treadwell.recording.file import cut_to_whole_messages, whole_length
+from treadwell.recording.file import NAME, cut_to_whole_messages, whole_length
 from treadwell.recording.layout import CLIMB, PATH
-from treadwell.recording.recorder import NAME, Recorder
+from treadwell.recording.recorder import Recorder
 from treadwell.trace import Sole, SteppingTrace, Trace
 
 FRAME = 80_000_000

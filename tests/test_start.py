@@ -3,6 +3,7 @@
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -24,6 +25,25 @@ start.main()
 """
 """A signal that comes when the command line is about to be loaded."""
 
+MAPPED = """
+import numpy as np
+from treadwell import mapping
+
+camera = mapping.Camera(width=40, height=30, fx=30.0, fy=30.0, cx=19.5, cy=14.5)
+world = mapping.Map("fog", camera)
+down = np.diag([1.0, -1.0, -1.0, 1.0])
+down[2, 3] = 0.5
+assert world.insert(np.full((30, 40), 0.5, np.float32), down).used
+world.save_picture("map.png")
+world.save_recording("map.rrd")
+"""
+COMMANDED = """
+from treadwell.cli.app import execute
+
+assert execute(["map", "floor.pcd", "--world-model", "elevation", "--out", "map"]) == 0
+"""
+"""A map of a cloud, with picture and recording, by the command."""
+
 
 def started(code: list[str]) -> tuple[int, str, str]:
     done = subprocess.run([sys.executable, *code], capture_output=True, text=True, check=False)
@@ -44,3 +64,20 @@ def test_ctrl_c_amid_the_loading_is_no_traceback(handler: str, status: int) -> N
     found, _, messages = started(["-c", INTERRUPTED.replace("HANDLER", handler)])
     assert found == status
     assert messages == ""
+
+
+@pytest.mark.parametrize(
+    "program",
+    ["import treadwell", "import treadwell.mapping", MAPPED, COMMANDED],
+    ids=["package", "library", "map of pictures", "command map"],
+)
+def test_maps_without_a_robot_are_made_without_mujoco(program: str, tmp_path: Path) -> None:
+    rows = "\n".join(f"{0.05 * x} {0.05 * y} 0.0" for x in range(20) for y in range(20))
+    header = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 400\nHEIGHT 1\n"
+    (tmp_path / "floor.pcd").write_text(f"{header}POINTS 400\nDATA ascii\n{rows}\n")
+    loaded = "print(sorted({'mujoco', 'treadwell.robot.load'} & set(sys.modules)))"
+    done = subprocess.run(
+        [sys.executable, "-c", f"import sys\n{program}\n{loaded}"],
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stdout.splitlines()[-1:]) == (0, ["[]"]), done.stderr

@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from treadwell.episode import Episode
-from treadwell.recording.recorder import NAME, Recorder
+from treadwell.recording.file import NAME
+from treadwell.recording.recorder import Recorder
 from treadwell.recording.tracing import trace_of
 from treadwell.recording.volumes import bars
 

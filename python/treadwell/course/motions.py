@@ -8,7 +8,7 @@ import numpy as np
 
 from treadwell.course.course import CourseElement
 from treadwell.course.outlines import Floats
-from treadwell.physics.audit import TICK_SECONDS
+from treadwell.physics.parts import TICK_SECONDS
 from treadwell.scenario.events import Move
 
 DOOR_SECONDS: Final = 1.0

@@ -21,13 +21,13 @@ from treadwell.judging.result import read_result
 from treadwell.map_memory import RememberedMap
 from treadwell.observation import Observation
 from treadwell.recording.cut_off import cut_run, is_cut_off, ways
+from treadwell.recording.file import NAME as RECORDING
 from treadwell.recording.log_file import BrokenLogError
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
 from treadwell.recording.observation_log import read_observations
 from treadwell.recording.recorded_camera import RecordedCamera, recorded_camera
-from treadwell.recording.recorder import NAME as RECORDING
 from treadwell.recording.trajectory import quaternion
 
 NAME: Final = "run.mcap"

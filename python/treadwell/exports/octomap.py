@@ -12,9 +12,9 @@ from treadwell.errors import InputError
 from treadwell.exports.recorded_points import seen_points
 from treadwell.files import whole_file
 from treadwell.map_memory import FLOOR, OBSTACLE
+from treadwell.recording.file import NAME as RECORDING
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import StoredMap, read_map
-from treadwell.recording.recorder import NAME as RECORDING
 
 Floats = NDArray[np.float64]
 RESOLUTION: Final = 0.02

@@ -20,11 +20,11 @@ from treadwell.exports.map_server import seen_part
 from treadwell.exports.recorded_points import seen_points
 from treadwell.files import write_bytes
 from treadwell.map_memory import UNKNOWN, RememberedMap
+from treadwell.recording.file import NAME as RECORDING
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
 from treadwell.recording.mesh_file import NAME as MESH
 from treadwell.recording.mesh_file import read_mesh
-from treadwell.recording.recorder import NAME as RECORDING
 
 Floats = NDArray[np.float64]
 GRAIN: Final = 0.01

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
-from treadwell.recording.recorder import NAME
+from treadwell.recording.file import NAME
 
 _POINTS, _CAMERA = "/world/points", "/world/camera"
 

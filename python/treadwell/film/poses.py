@@ -7,7 +7,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.physics.audit import STATE, TICK_SECONDS, steps_per_tick
+from treadwell.physics.audit import STATE, steps_per_tick
+from treadwell.physics.parts import TICK_SECONDS
 from treadwell.physics.recorded_audit import event_keys, load_audit
 
 TICK_S = TICK_SECONDS

@@ -19,9 +19,9 @@ from treadwell.map_memory import RememberedMap
 from treadwell.map_result import MappedLandmark, MappedSource, MapResult, counted, times
 from treadwell.poses import pose_matrix
 from treadwell.recording.cut_off import RESULT
+from treadwell.recording.file import NAME as RECORDING
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import PICTURE, write_map
-from treadwell.recording.recorder import NAME as RECORDING
 from treadwell.recording.run_folder import run_folder
 from treadwell.recording.trajectory import ESTIMATE, Trajectory
 from treadwell.sources.frame import Floats

@@ -24,11 +24,11 @@ from treadwell.map_making.static_frames import StaticSource
 from treadwell.map_memory import FLOOR, RememberedMap
 from treadwell.map_result import MappedSource, MapResult, counted, times
 from treadwell.recording.cut_off import RESULT
+from treadwell.recording.file import NAME as RECORDING
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import PICTURE, write_map
 from treadwell.recording.mesh_file import NAME as MESH
 from treadwell.recording.mesh_file import write_mesh
-from treadwell.recording.recorder import NAME as RECORDING
 from treadwell.recording.run_folder import run_folder
 from treadwell.recording.trajectory import ESTIMATE, Trajectory
 from treadwell.sources.frame import Floats, RangeFrame

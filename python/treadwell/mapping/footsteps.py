@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from treadwell._core import FootstepLayer
 from treadwell.errors import InputError
 from treadwell.footstep_plan import FootstepPlan, plan_of
-from treadwell.robot.load import load_robot
 
 
 def plan_footsteps(
@@ -46,6 +45,9 @@ def plan_footsteps(
     Raises:
         InputError: an argument that cannot be used; it is named.
     """
+    # Late: MuJoCo reads the robot, and a map does without it.
+    from treadwell.robot.load import load_robot
+
     heights = _heights(height)
     for name, value in (("cell", cell), ("goal_radius", goal_radius)):
         if not (math.isfinite(value) and value > 0.0):

@@ -11,7 +11,6 @@ from treadwell._core import FloorView, Stair, Ways
 from treadwell.core_settings import over
 from treadwell.errors import InputError
 from treadwell.mapping.map import Map
-from treadwell.robot.load import load_robot
 
 Point = tuple[float, float, float]
 Edge = tuple[Point, Point]
@@ -60,6 +59,9 @@ def find_stairs(world: Map) -> tuple[FoundStair, ...]:
     Raises:
         InputError: the map has no robot or no camera, or no picture was taken in yet.
     """
+    # Late: MuJoCo reads the robot, and a map without one does without it.
+    from treadwell.robot.load import load_robot
+
     if world.robot is None or world.camera is None:
         raise InputError('find_stairs: the map needs a camera and a robot: Map(..., robot="qrio")')
     found = world.core.staircase()

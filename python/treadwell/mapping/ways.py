@@ -21,7 +21,6 @@ from treadwell.mapping.checks import (
 )
 from treadwell.mapping.map import Map
 from treadwell.protocols import FloorMap, Setup
-from treadwell.robot.load import load_robot
 from treadwell.scenario.overrides import Overrides
 
 _TRUSTED: Final = {"terrain": {"left_out": "far_levels"}}
@@ -84,6 +83,9 @@ def plan(
     Raises:
         InputError: an argument that cannot be; it is named.
     """
+    # Late: MuJoCo reads the robot, and a map does without it.
+    from treadwell.robot.load import load_robot
+
     world = view if isinstance(view, Map) else None
     floor = _floor(view)
     x, y, yaw = finite_numbers("start", start, 3)

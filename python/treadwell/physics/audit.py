@@ -9,14 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import RecordingError
-from treadwell.physics.parts import CTRL, EVENT_STEP, PARTS, QPOS, STATE0, join
+from treadwell.physics.parts import CTRL, EVENT_STEP, PARTS, QPOS, STATE0, TICK_SECONDS, join
 from treadwell.physics.rows import Rows
 
 # By default MuJoCo appends its warnings to a file in the current folder.
 mujoco.set_mju_user_warning(logging.getLogger(__name__).warning)
 
-TICK_SECONDS = 0.01
-"""A control tick: the time between two rows of `qpos`, s."""
 SHORTEST_STEP = 1e-5
 """Seconds; a model with a shorter one is no run's."""
 STATE = mujoco.mjtState.mjSTATE_INTEGRATION

@@ -17,6 +17,8 @@ PARTS: Final = "physics.part"
 AUDIT: Final = "physics.npz"
 MODEL: Final = "model.mjb"
 STATE0, CTRL, QPOS, EVENT_STEP = "state0", "ctrl", "qpos", "event_step"
+TICK_SECONDS: Final = 0.01
+"""A control tick: the time between two rows of `qpos`, s."""
 _FIRST: Final = (STATE0, CTRL, QPOS, EVENT_STEP)
 
 

@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 from treadwell.careful_json import json_of
 from treadwell.errors import InputError
 from treadwell.judging.result import StateEntry
-from treadwell.physics.audit import TICK_SECONDS
-from treadwell.physics.parts import PARTS, QPOS, part_rows
+from treadwell.physics.parts import PARTS, QPOS, TICK_SECONDS, part_rows
 from treadwell.recording.log_file import BrokenLogError, read_front, read_messages
 from treadwell.recording.messages import Belief, decode_estimate, decode_truth
 from treadwell.recording.observation_log import NAME as OBSERVATIONS

@@ -11,6 +11,7 @@ from typing import Final
 from treadwell.errors import InputError
 from treadwell.files import opened
 
+NAME: Final = "recording.rrd"
 _MAGIC: Final = b"RRF2"
 _HEADER: Final = 12
 _MESSAGE: Final = struct.Struct("<QQ")

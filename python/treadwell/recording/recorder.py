@@ -13,7 +13,7 @@ from treadwell._core import Octree
 from treadwell.course.course import Course
 from treadwell.course.pieces import bounds
 from treadwell.errors import InputError, RecordingError
-from treadwell.recording.file import cut_to_whole_messages, room
+from treadwell.recording.file import NAME, cut_to_whole_messages, room
 from treadwell.recording.quiet import first_import
 from treadwell.robot.load import Robot
 from treadwell.scenario.model import Scenario
@@ -22,7 +22,6 @@ from treadwell.trace import Trace
 if TYPE_CHECKING:
     from treadwell.recording.shapes import Shapes
 
-NAME: Final = "recording.rrd"
 _FRAMES_A_BATCH: Final = 48
 """Camera frames, about four seconds, that are written at a time; then the file is looked at."""
 _LONGEST_WAIT: Final = 0.3

@@ -11,18 +11,17 @@ from typing import Any, Final
 from treadwell.errors import InputError
 from treadwell.files import read_content
 from treadwell.judging.result import Result, read_result
-from treadwell.physics.audit import TICK_SECONDS
-from treadwell.physics.parts import AUDIT
+from treadwell.physics.parts import AUDIT, TICK_SECONDS
 from treadwell.physics.recorded_audit import in_parts, replay_limited
 from treadwell.processor import likely_reason
 from treadwell.recording.cut_off import RESULT, CutRun, cut_run
+from treadwell.recording.file import NAME as RECORDING
 from treadwell.recording.file import begins_right, whole_length
 from treadwell.recording.log_file import BrokenLogError, read_front, read_messages
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import PICTURE, read_map
 from treadwell.recording.observation_log import CORE, hash_of, header_of, read_observations
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
-from treadwell.recording.recorder import NAME as RECORDING
 from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import without_nothing
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, read_trajectory

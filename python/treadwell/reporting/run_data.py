@@ -12,10 +12,10 @@ from treadwell.errors import InputError
 from treadwell.judging.result import Result, StateEntry, read_result
 from treadwell.physics.parts import MODEL
 from treadwell.recording.cut_off import CutRun, cut_run, is_cut_off
+from treadwell.recording.file import NAME as RECORDING
 from treadwell.recording.map_file import PICTURE
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
 from treadwell.recording.observation_log import read_header
-from treadwell.recording.recorder import NAME as RECORDING
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, headings, read_trajectory
 
 RESULT: Final = "result.json"
