@@ -1,6 +1,6 @@
 """A walker whose policy is a network in ONNX, as walkers that were trained elsewhere come.
 
-    pip install "treadwell[onnx]"
+    pip install "onnxruntime>=1.22"
     export PYTHONPATH=examples
     treadwell run open_floor --set navigation.walker=onnx_walker:OnnxWalker \
         --set navigation.OnnxWalker.policy=policy.onnx
@@ -30,7 +30,7 @@ from treadwell.protocols import JointTargets
 try:
     import onnxruntime
 except ImportError as error:
-    raise ImportError("needs onnxruntime: pip install treadwell[onnx]") from error
+    raise ImportError("needs onnxruntime: pip install onnxruntime") from error
 
 
 class OnnxWalker:

@@ -173,6 +173,12 @@ LISTED = ListedStep("left", 0.0, 0.0, 0.0)
 @pytest.mark.parametrize(
     ("slot", "method", "answer", "message"),
     [
+        (
+            "localizer",
+            "estimate",
+            (0.0, 0.0, 0.0),
+            r"four numbers \(x m, y m, z m, yaw rad\), got tuple \(float, float, float\)",
+        ),
         ("localizer", "estimate", (1e9, 0.0, 0.0, 0.0), "estimate must be finite and within"),
         ("planner", "plan", Plan(np.full((2, 2), 1e9)), "path must be finite and within"),
         ("planner", "plan", Plan(np.zeros((100_001, 2))), "path may have 100000 points at most"),

@@ -223,8 +223,10 @@ def test_a_signal_ends_a_map_with_the_frames_that_it_has(pictures: Path, tmp_pat
     [
         (("elevatoin.cell=0.1",), None, "elevation"),
         (("elevation.cell=-1",), "elevation", "navigation.elevation.cell"),
-        (("map.up=w",), None, "up"),
-        (("map.upp=z",), None, "up"),
+        (("map.up=w",), None, "^--set map.up: found"),
+        (("map.upp=z",), None, r"^--set map.upp: .*allowed: pose_within, up, .*mean 'up'"),
+        (("segmentr=x",), None, "mean 'segmenter'"),
+        (("navigation.planer=x",), None, "^--set navigation.planer: .*mean 'planner'"),
         ((), "elevatoin", "elevation"),
         ((), "mine:Model", "built in"),
         ((), "lines", "made of scans of a laser"),

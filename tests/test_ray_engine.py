@@ -60,7 +60,7 @@ def test_without_ray_the_command_says_what_to_install(
     monkeypatch.setitem(__import__("sys").modules, "ray", None)
     asked = ["sweep", short(tmp_path), "--episodes", "1", "--engine", "ray"]
     assert execute([*asked, "--out", str(tmp_path / "out")]) == 2
-    assert "pip install 'treadwell[ray]'" in capsys.readouterr().err
+    assert "Ray is not installed: pip install 'ray>=" in capsys.readouterr().err
 
 
 def test_what_extras_bring_is_there_for_the_tests_all_but_the_window() -> None:

@@ -9,6 +9,7 @@ import pytest
 from biped_builders import BOX_FOOT, HEAD, SIX, biped, leg, robot_folder
 from robot_builders import foreign_mjcf, qrio_copy
 
+from treadwell.cli.app import execute
 from treadwell.errors import InputError
 from treadwell.robot.anatomy import Anatomy
 from treadwell.robot.load import load_folder, load_robot
@@ -154,3 +155,31 @@ def test_a_camera_looks_down_as_far_as_the_head_cannot_nod(
     told = tomllib.loads(write_template(folder).read_text(encoding="utf-8"))
     assert told["camera"]["mount"]["down"] == pytest.approx(down, abs=0.01)
     assert load_folder(folder).file.head.tilt == "head.tilt"
+
+
+def test_of_several_models_one_can_be_named_and_they_are_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = robot_folder(tmp_path, biped())
+    whole = folder / "biped.xml"
+    (folder / "plain.xml").write_text(whole.read_text())
+    whole.write_text(whole.read_text().replace("<worldbody>", "<worldbody><no_such_thing/>"))
+    drafted = ["robot", "check", str(folder), "--write-template"]
+    assert execute(drafted) == 2
+    assert "has biped.xml, plain.xml; --model FILE says which" in capsys.readouterr().err
+    assert execute([*drafted, "--model", "plan.xml"]) == 2
+    assert "there are biped.xml, plain.xml; did you mean 'plain.xml'?" in capsys.readouterr().err
+    assert execute([*drafted, "--model", "plain.xml"]) in (0, 2)  # a biped of boxes need not fit
+    told = tomllib.loads((folder / "robot.toml").read_text())
+    assert told["robot"]["model"] == "plain.xml"
+
+
+def test_the_model_that_was_taken_of_several_is_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = robot_folder(tmp_path, biped())
+    (folder / "other.xml").write_text((folder / "biped.xml").read_text())
+    execute(["robot", "check", str(folder), "--write-template"])
+    assert "of biped.xml; --model takes another: other.xml" in capsys.readouterr().err
+    assert execute(["robot", "check", str(folder), "--model", "other.xml"]) == 2
+    assert "goes with --write-template" in capsys.readouterr().err

@@ -100,3 +100,19 @@ def test_what_python_gives_is_shown_so(tmp_path: Path) -> None:
     )
     assert repr(run).startswith("<Run open_floor with qrio, seed 0: timed_out after 0.3 s")
     assert len(repr(run)) < 200
+
+
+def test_what_a_step_holds_is_a_line_each_too() -> None:
+    step = treadwell.Episode("open_floor").tick()
+    shown = [step.observation, step.observation.depth, step.command, step.estimate]
+    for one in shown:
+        assert "array" not in repr(one)
+        assert len(repr(one)) < 160
+    assert repr(step.observation).startswith("<Observation at 0.00 s: ")
+    assert repr(step.observation.depth) in repr(step.observation)
+
+
+def test_the_tab_key_offers_of_the_library_what_is_public() -> None:
+    from treadwell import mapping
+
+    assert {name for name in dir(mapping) if not name.startswith("__")} == set(mapping.__all__)

@@ -41,7 +41,7 @@ FOOTSTEP_STAGES: Final = ("footsteps_first", "footsteps_best")
 """What is timed of a plan of footsteps: until a first one is found, and until the best is."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Estimate:
     """What the robot believes.
 
@@ -54,6 +54,10 @@ class Estimate:
     pose: Pose
     odometry: Pose
     lost: bool = False
+
+    def __repr__(self) -> str:
+        (x, y, z, yaw), lost = self.pose, ", lost" if self.lost else ""
+        return f"<Estimate at ({x:.2f}, {y:.2f}, {z:.2f}) m, {yaw:.2f} rad{lost}>"
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Frame:
     """One image of the depth camera.
 
@@ -37,6 +37,10 @@ class Frame:
         """Type of the image's numbers."""
         return self.depth.dtype
 
+    def __repr__(self) -> str:
+        rows, cols = self.shape[:2]
+        return f"<Frame {cols} x {rows}, seen at {1e-9 * self.exposure_ns:.2f} s>"
+
     def __array__(
         self, dtype: np.dtype[Any] | None = None, copy: bool | None = None
     ) -> NDArray[Any]:
@@ -48,7 +52,7 @@ class Frame:
         return self.depth[index]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Observation:
     """The measurements of one control tick.
 
@@ -70,3 +74,10 @@ class Observation:
     specific_force: Floats
     foot_forces: Floats
     depth: Frame | None
+
+    def __repr__(self) -> str:
+        joints, newtons = len(self.joint_positions), np.sum(self.foot_forces, axis=-1)
+        seen = "no depth image" if self.depth is None else repr(self.depth)
+        feet = " and ".join(f"{force:.0f}" for force in newtons)
+        now = f"{1e-9 * self.time_ns:.2f} s"
+        return f"<Observation at {now}: {joints} joints, feet bear {feet} N, {seen}>"

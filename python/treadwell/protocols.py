@@ -246,7 +246,7 @@ class Behaviour(Protocol):
         """Return the decision at a control tick."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class JointTargets:
     """What the joints are asked for at one control tick; arrays by the robot's joint order.
 
@@ -265,6 +265,10 @@ class JointTargets:
         """Return targets that hold these angles, (n,) rad: no velocity, nothing fed forward."""
         still = np.zeros(len(position))
         return cls(position, still, still)
+
+    def __repr__(self) -> str:
+        largest = float(np.max(np.abs(self.torque), initial=0.0))
+        return f"<JointTargets of {len(self.position)} joints, up to {largest:.1f} N m fed forward>"
 
 
 class Walker(Protocol):

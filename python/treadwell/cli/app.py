@@ -267,12 +267,20 @@ def robot_check(
         bool,
         typer.Option("--write-template", help="Write a draft of robot.toml from the MJCF first."),
     ] = False,
+    model: Annotated[
+        str | None,
+        typer.Option(
+            "--model",
+            metavar="FILE",
+            help="With --write-template: which of the folder's models is the robot.",
+        ),
+    ] = None,
     as_json: JsonOption = False,
 ) -> int:
     """Report what a robot's folder holds, what is missing, and what its gait can do."""
     from treadwell.cli import robot as cli_robot
 
-    return cli_robot.check(folder, walk=walk, template=template, as_json=as_json)
+    return cli_robot.check(folder, walk=walk, template=template, model=model, as_json=as_json)
 
 
 def execute(arguments: Sequence[str]) -> int:

@@ -5,9 +5,12 @@ from pathlib import Path
 from typing import Any
 
 from treadwell.cli.output import BAD_INPUT, FAILED, PASSED, write_json, write_message, write_table
+from treadwell.errors import InputError
 
 
-def check(folder: Path, *, walk: bool, template: bool, as_json: bool) -> int:
+def check(
+    folder: Path, *, walk: bool, template: bool, as_json: bool, model: str | None = None
+) -> int:
     """Report on a folder, and return the exit status.
 
     Args:
@@ -16,19 +19,23 @@ def check(folder: Path, *, walk: bool, template: bool, as_json: bool) -> int:
         walk: let it walk a metre, and then walk, turn, stop, be pushed and climb.
         template: write a draft of a `robot.toml` where there is none.
         as_json: write JSON instead of tables.
+        model: the file of the folder of which the draft is to be; None: the one that is found.
 
     Raises:
         InputError: there is no such folder, no MJCF in it, or a `robot.toml` already.
     """
+    if model is not None and not template:
+        raise InputError(
+            "--model: goes with --write-template; of a folder with a robot.toml, [robot] model = "
+            "in it says which file is the robot"
+        )
     from treadwell.data import data_folder, robot_names
     from treadwell.robot.report import report_on
 
     if not folder.is_dir() and str(folder) in robot_names():
         folder = data_folder("models") / folder
     if template:
-        from treadwell.robot.template import write_template
-
-        write_message(f"wrote {write_template(folder)}: read it through, guesses are said as such")
+        _draft(folder, model)
     document = report_on(folder)
     if document["fits"]:
         from treadwell.robot_trial import refused
@@ -49,6 +56,26 @@ def check(folder: Path, *, walk: bool, template: bool, as_json: bool) -> int:
     if document["problems"]:
         return BAD_INPUT
     return PASSED if document.get("walk", {"passed": True})["passed"] else FAILED
+
+
+def _draft(folder: Path, model: str | None) -> None:
+    """Write a draft, and say which models there are where nobody said of which it is to be."""
+    from treadwell.robot.model_file import find_model, models_in
+    from treadwell.robot.template import write_template
+
+    there = models_in(folder) if model is None else []
+    try:
+        wrote = write_template(folder, model)
+    except InputError as error:
+        if len(there) < 2 or (folder / "robot.toml").exists():
+            raise
+        told = f"the folder has {', '.join(there)}; --model FILE says which of them to take"
+        raise InputError(f"{error}\n{told}") from None
+    write_message(f"wrote {wrote}: read it through, guesses are said as such")
+    if len(there) > 1:
+        taken = find_model(folder).name
+        others = ", ".join(name for name in there if name != taken)
+        write_message(f"note:     of {taken}; --model takes another: {others}")
 
 
 def _show(document: Mapping[str, Any]) -> None:

@@ -8,7 +8,9 @@ are footsteps instead of velocities.
 try:
     from gymnasium.envs.registration import register, registry
 except ImportError as error:
-    raise ImportError("needs gymnasium: pip install treadwell[gym]") from error
+    from treadwell.extras import install_hint
+
+    raise ImportError(f"needs gymnasium: {install_hint('gym')}") from error
 
 from treadwell.scenario.loading import scenario_names
 

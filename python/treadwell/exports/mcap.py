@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from treadwell.errors import InputError
 from treadwell.exports.map_server import seen_part
 from treadwell.exports.recorded_points import SeenPoints, seen_points
+from treadwell.extras import install_hint
 from treadwell.files import whole_file
 from treadwell.judging.result import read_result
 from treadwell.map_memory import RememberedMap
@@ -65,7 +66,7 @@ def _schemas() -> Any:  # noqa: ANN401 - a module
         from foxglove import messages
     except ImportError:
         raise InputError(
-            "--to mcap: needs the extra `foxglove`: pip install 'treadwell[foxglove]'"
+            f"--to mcap: needs the extra `foxglove`: {install_hint('foxglove')}"
         ) from None
     return messages
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from treadwell.errors import InputError, RecordingError
+from treadwell.extras import install_hint
 from treadwell.files import whole_file
 from treadwell.film.follower import Follower, follow
 from treadwell.film.plan_panel import PlanPanel
@@ -198,7 +199,7 @@ def _encoder(path: Path) -> Callable[[Path, Iterator[Picture]], None]:
         import_module("imageio_ffmpeg")
     except ImportError:
         raise InputError(
-            "--video: an MP4 needs the extra `video`: pip install 'treadwell[video]'; "
+            f"--video: an MP4 needs the extra `video`: {install_hint('video')}; "
             "a name that ends in .gif needs nothing"
         ) from None
     return _write_mp4

@@ -9,7 +9,7 @@ from pydantic import Field, ValidationError
 
 from treadwell.errors import InputError
 from treadwell.reference.parameters import all_tables
-from treadwell.scenario.messages import describe, nearest, report, shortened
+from treadwell.scenario.messages import describe_in, nearest, shortened
 from treadwell.scenario.model import Navigation
 from treadwell.scenario.overrides import assign, parse_setting, split_key
 from treadwell.scenario.types import Table
@@ -149,9 +149,14 @@ def read_request(
         navigation = Navigation.model_validate(tables)
         data = MapTable.model_validate(raw.get("map", {}))
     except ValidationError as error:
-        found = dict(tables) if error.title == "Navigation" else raw.get("map", {})
-        lines = [describe(detail, found) for detail in error.errors(include_url=False)]
-        raise InputError(report("--set", list(dict.fromkeys(lines)))) from None
+        found, name, model = (
+            (dict(tables), "navigation", Navigation)
+            if error.title == Navigation.__name__
+            else (raw.get("map", {}), "map", MapTable)
+        )
+        details = error.errors(include_url=False)
+        lines = [f"--set {describe_in(name, model, detail, found)}" for detail in details]
+        raise InputError("\n".join(dict.fromkeys(lines))) from None
     classes = _tables(raw, "classification", "ground_filter", *LABEL_TABLES)
     return MapRequest(
         source=source,
@@ -186,5 +191,5 @@ def _tables(raw: dict[str, Any], top: str, *names: str) -> dict[str, dict[str, A
 def _is_a_table(word: str) -> None:
     names = sorted({table.key.split(".")[1] for table in all_tables() if "." in table.key})
     if word not in (*names, *_SLOTS):
-        allowed = f"{', '.join(_TOP)}, or a table of navigation{nearest(word, ['map', *names])}"
+        allowed = f"{', '.join(_TOP)}, or a table of navigation{nearest(word, ['map', *_SLOTS, *names])}"
         raise InputError(f"--set {shortened(word)}: unknown; must begin with {allowed}")

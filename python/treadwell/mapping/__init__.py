@@ -47,3 +47,8 @@ __all__ = [
     "plan",
     "plan_footsteps",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return what is public: for the tab key, without the modules that it is made of."""
+    return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from treadwell.errors import InputError
 from treadwell.plugins import check_component, load_component
-from treadwell.scenario.messages import describe, report
+from treadwell.scenario.messages import describe_in, report
 from treadwell.scenario.model import Navigation
 from treadwell.scenario.overrides import Overrides, assign, read_overrides
 from treadwell.sources.frame import Floats, PinholeCamera
@@ -130,7 +130,8 @@ def checked_tables(raw: Mapping[str, Any]) -> dict[str, Any]:
     try:
         return Navigation.model_validate(raw).parameters()
     except ValidationError as error:
-        lines = [describe(detail, raw) for detail in error.errors(include_url=False)]
+        details = error.errors(include_url=False)
+        lines = [describe_in("navigation", Navigation, detail, raw) for detail in details]
         raise InputError(report("mapping", list(dict.fromkeys(lines)))) from None
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from treadwell.episode import Episode, Step
 from treadwell.errors import InputError, RecordingError, TreadwellError
+from treadwell.extras import install_hint
 from treadwell.judging.result import Result
 from treadwell.map_memory import RememberedMap
 from treadwell.recording.core_products import known_occupied, known_surface
@@ -288,5 +289,5 @@ def open_viewer(episode: Episode) -> Any:  # noqa: ANN401 - MuJoCo's viewer has 
     except Exception as error:
         raise InputError(
             f"--view: no window can be opened ({error}); it needs a display and "
-            "the extra `view`: pip install 'treadwell[view]'"
+            f"the extra `view`: {install_hint('view')}"
         ) from error

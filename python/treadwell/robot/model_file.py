@@ -10,10 +10,16 @@ from treadwell.robot.load import robot_spec
 from treadwell.robot.loops import drivers
 from treadwell.robot.model_gaps import fill_gaps
 from treadwell.scenario.loading import read_toml
+from treadwell.scenario.messages import nearest
 
 PATTERNS = ("*.xml", "*.urdf")
 MOST_FILES = 20
 """Files of a folder that are looked into to see which one is the robot."""
+
+
+def models_in(folder: Path) -> list[str]:
+    """Return the names of a folder's files that may hold a model, in alphabetical order."""
+    return sorted(path.name for pattern in PATTERNS for path in folder.glob(pattern))
 
 
 def find_model(folder: Path, name: str | None = None) -> Path:
@@ -30,8 +36,13 @@ def find_model(folder: Path, name: str | None = None) -> Path:
         InputError: there is none, or no telling which.
     """
     if name is not None:
-        if not (folder / Path(name).name).is_file():
-            raise InputError(f"{folder / name}: there is no such file")
+        there = models_in(folder)
+        if Path(name).name not in there or Path(name).parent not in (Path(), folder):
+            raise InputError(
+                f"{folder / name}: there is no such model in {folder}; "
+                f"there {'is' if len(there) == 1 else 'are'} {', '.join(there) or 'none'}"
+                f"{nearest(name, there)}"
+            )
         return folder / Path(name).name
     try:
         told = read_toml(folder / "robot.toml")["robot"]["model"]
@@ -39,7 +50,7 @@ def find_model(folder: Path, name: str | None = None) -> Path:
             return folder / Path(told).name
     except (OSError, ValueError, KeyError, TypeError, InputError):
         pass  # whoever reads the file for what it says tells what is wrong with it
-    files = sorted(path for pattern in PATTERNS for path in folder.glob(pattern))
+    files = [folder / each for each in models_in(folder)]
     same = [file for file in files if file.stem == folder.resolve().name]
     if len(files) == 1 or same:
         return (same or files)[0]
@@ -47,8 +58,13 @@ def find_model(folder: Path, name: str | None = None) -> Path:
         robots = sorted(filter(None, (_rank(file) for file in files[:MOST_FILES])))
         if robots:
             return folder / robots[0][-1]
+    if not files:
+        raise InputError(
+            f"{folder}: has no MJCF (*.xml) or URDF; name the robot's "
+            f"{folder.resolve().name}.xml, or say [robot] model = in a robot.toml"
+        )
     raise InputError(
-        f"{folder}: has {'no MJCF (*.xml) or URDF' if not files else f'{len(files)} MJCF files'}; "
+        f"{folder}: no model in it is a robot on a free root without a floor; "
         f"name the robot's {folder.resolve().name}.xml, or say [robot] model = in a robot.toml"
     )
 

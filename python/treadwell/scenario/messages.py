@@ -77,12 +77,30 @@ def shortened(text: str, longest: int = 120) -> str:
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
-def describe(error: ErrorDetails, raw: Mapping[str, Any]) -> str:
+def describe_in(name: str, model: type[BaseModel], error: ErrorDetails, raw: object) -> str:
+    """Return the line for one of pydantic's errors in a table that was validated alone.
+
+    Args:
+        name: of the table.
+        model: of it.
+        error: one entry of `ValidationError.errors()`.
+        raw: what was validated.
+    """
+    nested: ErrorDetails = {**error, "loc": (name, *error["loc"])}
+    return describe(nested, {name: raw}, {name: model})
+
+
+def describe(
+    error: ErrorDetails,
+    raw: Mapping[str, Any],
+    tables: Mapping[str, type[BaseModel]] = TABLES,
+) -> str:
     """Return the line for one of pydantic's errors.
 
     Args:
         error: one entry of `ValidationError.errors()`.
         raw: what was validated.
+        tables: those that it can have at its top.
     """
     kind, context = error["type"], error.get("ctx", {})
     path = _path_of(error, raw)
@@ -96,7 +114,7 @@ def describe(error: ErrorDetails, raw: Mapping[str, Any]) -> str:
         text = f"must be one of {', '.join(allowed)}"
         return _line(path, raw, text + nearest(found, allowed))
     if kind == "extra_forbidden":
-        return _unknown(path, raw)
+        return _unknown(path, raw, tables)
     if kind == "missing":
         return f"{dotted(path, raw)}: missing, it is required"
     text = error["msg"].replace("Input should be", "must be").replace("Value should", "must")
@@ -120,11 +138,11 @@ def describe(error: ErrorDetails, raw: Mapping[str, Any]) -> str:
     return _line(path, raw, text)
 
 
-def _unknown(path: Path, raw: Mapping[str, Any]) -> str:
+def _unknown(path: Path, raw: Mapping[str, Any], tables: Mapping[str, type[BaseModel]]) -> str:
     key = dotted(path, raw)
     if path[:-1] == ("navigation",) and path[-1] in RENAMED:
         return f"{key}: is called navigation.{RENAMED[str(path[-1])]} now"
-    allowed = _keys_at(path[:-1], raw)
+    allowed = _keys_at(path[:-1], raw, tables)
     return f"{key}: unknown key; allowed: {', '.join(allowed)}{nearest(path[-1], allowed)}"
 
 
@@ -193,14 +211,16 @@ def _path_of(error: ErrorDetails, raw: Mapping[str, Any]) -> Path:
     return (*path, *context.get("at", ()))
 
 
-def _keys_at(path: Path, raw: Mapping[str, Any]) -> list[str]:
+def _keys_at(
+    path: Path, raw: Mapping[str, Any], tables: Mapping[str, type[BaseModel]]
+) -> list[str]:
     """Return the keys that the table at a path can have."""
     model: type[BaseModel] | None = None
     extra: list[str] = []
     if path == ():
         model, extra = Scenario, ["vary"]
     elif len(path) == 1:
-        model = TABLES.get(str(path[0]))
+        model = tables.get(str(path[0]))
         extra = [*parameter_tables(), *_classes(raw)] if path == ("navigation",) else []
     elif path[0] == "course" or path[-1] == "element":
         model = ELEMENTS.get(str(value_at(raw, (*path, "kind"))))

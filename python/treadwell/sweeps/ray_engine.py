@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from typing import Any, Final, Self
 
 from treadwell.errors import InputError
+from treadwell.extras import install_hint
 from treadwell.sweeps.engine import Engine
 from treadwell.sweeps.job import do
 from treadwell.workers.answers import Answer, Died
@@ -55,9 +56,7 @@ def ray_engine(workers: int | None) -> Engine:
     try:
         import ray
     except ImportError:
-        raise InputError(
-            "--engine ray: Ray is not installed: pip install 'treadwell[ray]'"
-        ) from None
+        raise InputError(f"--engine ray: Ray is not installed: {install_hint('ray')}") from None
     if not ray.is_initialized():
         # A cluster of this machine listens to this machine alone, and asks nobody.
         os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")

@@ -11,6 +11,7 @@ use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
 use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
 
 pub(crate) use behaviour::behaviour;
 pub(crate) use localizer::localizer;
@@ -101,6 +102,30 @@ fn attribute<'py, T: FromPyObjectOwned<'py>>(
         .map_err(|_| unlike(&format!("{of}.{name}"), &found, wanted))
 }
 
+/// The most entries of a tuple or list whose types an error names.
+const MOST_NAMED: usize = 8;
+
+/// Name of a value's type.
+fn kind(found: &Bound<'_, PyAny>) -> String {
+    found.get_type().name().map_or_else(
+        |_| "something without a type".to_owned(),
+        |kind| kind.to_string(),
+    )
+}
+
+/// What a value is that is no array: its type, and those of a tuple's or list's entries.
+fn kinds(found: &Bound<'_, PyAny>) -> String {
+    let sequence = found.is_instance_of::<PyTuple>() || found.is_instance_of::<PyList>();
+    let entries: Vec<String> = match found.try_iter() {
+        Ok(entries) if sequence => entries.map_while(Result::ok).map(|one| kind(&one)).collect(),
+        _ => return kind(found),
+    };
+    match entries.len() {
+        0..=MOST_NAMED => format!("{} ({})", kind(found), entries.join(", ")),
+        many => format!("{} of {many}", kind(found)),
+    }
+}
+
 /// The error for a value of another type than is wanted: with its type, and that of its elements and its shape if it is an array.
 fn unlike(name: &str, found: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
     let text = |key| {
@@ -111,10 +136,7 @@ fn unlike(name: &str, found: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
     };
     let is = match (text("dtype"), text("shape")) {
         (Ok(dtype), Ok(shape)) => format!("{dtype} {shape}"),
-        _ => found.get_type().name().map_or_else(
-            |_| "something without a type".to_owned(),
-            |kind| kind.to_string(),
-        ),
+        _ => kinds(found),
     };
     PyValueError::new_err(format!("{name} must be {wanted}, got {is}"))
 }
