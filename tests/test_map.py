@@ -194,6 +194,29 @@ def test_the_axis_that_points_up_is_told_and_turned(
     assert abs(float(np.median(floor))) < 0.01
 
 
+@pytest.mark.parametrize("world_model", ["fog", "elevation"])
+def test_a_floor_that_leans_is_told_with_the_direction_that_makes_it_level(
+    pictures: Path, tmp_path: Path, world_model: str
+) -> None:
+    """The same pictures in a world that is turned by 12.8 degrees about x."""
+    angle = np.radians(12.8)
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    pose = camera_pose()
+    numbers = [*(turn @ pose[:3, 3]), *quaternion(turn @ pose[:3, :3])]
+    line = " ".join(f"{value:.9f}" for value in numbers)
+    (pictures / "poses.tum").write_text("".join(f"{time} {line}\n" for time in range(4)))
+    wrong = mapped(pictures, tmp_path / "wrong", world_model=world_model)
+    (note,) = [note for note in wrong.result.notes if "leans" in note]
+    assert "leans by 12.8 degrees" in note
+    setting = note.partition("--set '")[2].rstrip("'")
+    right = mapped(pictures, tmp_path / "right", setting, world_model=world_model)
+    assert not right.result.notes
+    heights = right.map.height[right.map.kind == FLOOR]
+    assert len(heights) > 100
+    assert float(np.percentile(heights, 95) - np.percentile(heights, 5)) < 0.02
+
+
 @pytest.mark.parametrize("up", ["x", "-x", "y", "-y", "z", "-z"])
 def test_a_turn_brings_its_axis_up_and_turns_nothing_inside_out(up: str) -> None:
     turn = placing(up, np.eye(4), 1.0).turn  # type: ignore[arg-type]
@@ -224,6 +247,7 @@ def test_a_signal_ends_a_map_with_the_frames_that_it_has(pictures: Path, tmp_pat
         (("elevatoin.cell=0.1",), None, "elevation"),
         (("elevation.cell=-1",), "elevation", "navigation.elevation.cell"),
         (("map.up=w",), None, "^--set map.up: found"),
+        (("map.up=[0,0,0]",), None, "map.up: .*must not be"),
         (("map.upp=z",), None, r"^--set map.upp: .*allowed: pose_within, up, .*mean 'up'"),
         (("segmentr=x",), None, "mean 'segmenter'"),
         (("navigation.planer=x",), None, "^--set navigation.planer: .*mean 'planner'"),

@@ -12,6 +12,7 @@ from treadwell.errors import InputError
 from treadwell.files import write_text
 from treadwell.interruption import Interruption
 from treadwell.map_making.landmarks import make_landmark_map
+from treadwell.map_making.leaning import Leaning
 from treadwell.map_making.made import FrameProgress, MadeMap, stem, title_of, writing
 from treadwell.map_making.mapper import Mapper
 from treadwell.map_making.placing import sensed
@@ -114,6 +115,7 @@ class _Making:
         self._read = 0
         self._seconds: list[float] = []
         self._interrupted = False
+        self._leaning = Leaning()
 
     def find_usable(self, first: RangeFrame, others: Iterator[RangeFrame]) -> bool:
         """Feed frames up to the first that is used; say whether there are more.
@@ -146,6 +148,7 @@ class _Making:
         pose = self._mapper.insert(frame)
         if pose is not None:
             self._poses.append((frame.time, pose))
+            self._leaning.insert(frame, pose)
             if self.labels is not None:
                 self.labels.insert(frame, pose)
             if self.recording is not None:
@@ -179,7 +182,7 @@ class _Making:
             placed[:3, 3] += mapper.place.offset
             way.add(round(1e9 * time), placed)
         way.write(folder / ESTIMATE)
-        level = self._level(request)
+        level = self._level(request) or self._leaning.notes(request.data, mapper.place.turn)
         result = MapResult(
             schema="treadwell.map/1",
             version=__version__,

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.map_making.request import Up
+from treadwell.map_making.request import Direction
 from treadwell.sources.frame import Floats, RangeFrame
 
 _NEAR_M: Final = 1000.0
@@ -37,11 +37,11 @@ class Placing:
         return placed
 
 
-def placing(up: Up, world_from_sensor: Floats, cell: float) -> Placing:
+def placing(up: Direction, world_from_sensor: Floats, cell: float) -> Placing:
     """Return how the map's frame lies: at the world's origin, or at the first sensor far from it.
 
     Args:
-        up: axis of the world that points up.
+        up: axis of the world that points up, or the direction that does.
         world_from_sensor: (4, 4) of the first frame.
         cell: m; the origin lies at a whole number of cells.
     """
@@ -80,15 +80,19 @@ def ground_below(points: NDArray[np.float32], map_from_sensor: Floats) -> float:
     return float(np.percentile(heights, _GROUND_SHARE))
 
 
-def _turn(up: Up) -> Floats:
-    """Return the rotation that brings an axis to z, by the smallest angle."""
+def _turn(up: Direction) -> Floats:
+    """Return the rotation that brings a direction to z, by the smallest angle."""
     axis = np.zeros(3)
-    axis["xyz".index(up[-1])] = -1.0 if up[0] == "-" else 1.0
-    if axis[2]:
-        return np.diag([1.0, axis[2], axis[2]])
+    if isinstance(up, str):
+        axis["xyz".index(up[-1])] = -1.0 if up[0] == "-" else 1.0
+    else:
+        axis[:] = np.array(up) / np.linalg.norm(up)
+    cosine = float(axis[2])
+    if cosine == -1.0:
+        return np.diag([1.0, -1.0, -1.0])
     cross = np.cross(axis, [0.0, 0.0, 1.0])
     skew = np.array(
         [[0.0, -cross[2], cross[1]], [cross[2], 0.0, -cross[0]], [-cross[1], cross[0], 0.0]]
     )
-    turned: Floats = np.eye(3) + skew + skew @ skew
+    turned: Floats = np.eye(3) + skew + skew @ skew / (1.0 + cosine)
     return turned

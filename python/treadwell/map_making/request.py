@@ -5,18 +5,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Discriminator, Field, Tag, ValidationError, field_validator
 
 from treadwell.errors import InputError
 from treadwell.reference.parameters import all_tables
 from treadwell.scenario.messages import describe_in, nearest, shortened
 from treadwell.scenario.model import Navigation
 from treadwell.scenario.overrides import assign, parse_setting, split_key
-from treadwell.scenario.types import Table
+from treadwell.scenario.types import Point3, Table
 from treadwell.sources.landmark_log import ROBOTS
 from treadwell.sources.source import POSE_WITHIN_S
 
 Up = Literal["x", "-x", "y", "-y", "z", "-z"]
+Direction = Up | tuple[float, float, float]
+"""An axis, or any direction, (x, y, z)."""
 PICTURES, POINTS = "fog", "elevation"
 """World models where none is named: of depth images, of clouds."""
 MESH: Final = "mesh"
@@ -41,8 +43,16 @@ class MapTable(Table):
 
     pose_within: Annotated[float, Field(ge=0.0, le=1e6)] = POSE_WITHIN_S
     """How far off in time a frame's pose may be, s."""
-    up: Up = "z"
-    """Which axis of the poses' world points up; the map's z does."""
+    up: Annotated[
+        Annotated[Up, Tag("axis")] | Annotated[Point3, Tag("direction")],
+        Discriminator(lambda up: "axis" if isinstance(up, str) else "direction"),
+    ] = "z"
+    """Which axis of the poses' world points up, or the direction that does, (x, y, z); the map's
+    z does."""
+    level_within: Annotated[float, Field(ge=0.0, le=1.5)] = 0.05
+    """A note tells of a floor in pictures that leans by more than this against the map, rad."""
+    floor_share: Annotated[float, Field(ge=0.0, le=1.0)] = 0.2
+    """It is one that makes up more than this part of what the pictures show."""
     ground: Literal["auto", "filter", "all"] = "auto"
     """Which points of a cloud are ground: `filter` tells it from what stands on it, by
     `classification.ground_filter`; `all` takes all; `auto` filters landscapes from above."""
@@ -60,6 +70,13 @@ class MapTable(Table):
     """Surfaces are found in pictures of so many columns at most: blocks of wider ones are one."""
     pictures: Annotated[int, Field(ge=0, le=64)] = 16
     """The world model `mesh` shows so many pictures of data in colour at most; 0: none."""
+
+    @field_validator("up")
+    @classmethod
+    def _points_somewhere(cls, up: Direction) -> Direction:
+        if not isinstance(up, str) and not any(up):
+            raise ValueError("a direction must not be (0, 0, 0)")
+        return up
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,5 +208,7 @@ def _tables(raw: dict[str, Any], top: str, *names: str) -> dict[str, dict[str, A
 def _is_a_table(word: str) -> None:
     names = sorted({table.key.split(".")[1] for table in all_tables() if "." in table.key})
     if word not in (*names, *_SLOTS):
-        allowed = f"{', '.join(_TOP)}, or a table of navigation{nearest(word, ['map', *_SLOTS, *names])}"
+        allowed = (
+            f"{', '.join(_TOP)}, or a table of navigation{nearest(word, ['map', *_SLOTS, *names])}"
+        )
         raise InputError(f"--set {shortened(word)}: unknown; must begin with {allowed}")

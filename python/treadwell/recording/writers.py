@@ -11,6 +11,7 @@ from treadwell.extras import install_hint
 from treadwell.judging.result import Result
 from treadwell.map_memory import RememberedMap
 from treadwell.recording.core_products import known_occupied, known_surface
+from treadwell.recording.file import NAME as RECORDING
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import PICTURE, write_map
 from treadwell.recording.mesh_file import NAME as MESH
@@ -80,7 +81,7 @@ class Writers:
 
             made = episode.scenario
             self._recorder = recording.Recorder(
-                folder / recording.NAME,
+                folder / RECORDING,
                 episode.course.model,
                 episode.course,
                 made,
