@@ -51,8 +51,9 @@ class MapTable(Table):
     z does."""
     level_within: Annotated[float, Field(ge=0.0, le=1.5)] = 0.05
     """A note tells of a floor in pictures that leans by more than this against the map, rad."""
-    floor_share: Annotated[float, Field(ge=0.0, le=1.0)] = 0.2
-    """It is one that makes up more than this part of what the pictures show."""
+    floor_share: Annotated[float, Field(ge=0.0, le=1.0)] = 0.05
+    """It is the largest surface within 45 degrees of level, and more than this part of what the
+    pictures show."""
     ground: Literal["auto", "filter", "all"] = "auto"
     """Which points of a cloud are ground: `filter` tells it from what stands on it, by
     `classification.ground_filter`; `all` takes all; `auto` filters landscapes from above."""
