@@ -70,6 +70,7 @@ TESTED_BY = {
     "map_result": "test_map.py",
     "map_making.landmark_picture": "test_landmark_map.py",
     "map_making.landmarks": "test_landmark_map.py",
+    "map_making.leaning": "test_map.py",
     "map_making.mapper": "test_map.py",
     "map_making.picture": "test_map.py",
     "map_making.plan_picture": "test_map_plan.py",

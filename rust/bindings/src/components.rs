@@ -117,7 +117,10 @@ fn kind(found: &Bound<'_, PyAny>) -> String {
 fn kinds(found: &Bound<'_, PyAny>) -> String {
     let sequence = found.is_instance_of::<PyTuple>() || found.is_instance_of::<PyList>();
     let entries: Vec<String> = match found.try_iter() {
-        Ok(entries) if sequence => entries.map_while(Result::ok).map(|one| kind(&one)).collect(),
+        Ok(entries) if sequence => entries
+            .map_while(Result::ok)
+            .map(|one| kind(&one))
+            .collect(),
         _ => return kind(found),
     };
     match entries.len() {

@@ -35,8 +35,13 @@ impl PythonLocalizer {
         let argument = (PyBodyState(body.clone()),);
         let object = self.object.bind(py);
         let answer = object.call_method1(intern!(py, "estimate"), argument)?;
-        let pose: [f64; 4] = (answer.extract())
-            .map_err(|_| unlike("estimate()", &answer, "four numbers (x m, y m, z m, yaw rad)"))?;
+        let pose: [f64; 4] = (answer.extract()).map_err(|_| {
+            unlike(
+                "estimate()",
+                &answer,
+                "four numbers (x m, y m, z m, yaw rad)",
+            )
+        })?;
         check_within("estimate", pose, FARTHEST_M)?;
         Ok(pose)
     }
