@@ -359,4 +359,4 @@ def test_without_the_extra_the_message_names_it(tmp_path: Path) -> None:
         [sys.executable, "-c", code], capture_output=True, text=True, check=False, env=os.environ
     )
     assert done.returncode == 2
-    assert "treadwell[foxglove]" in done.stderr
+    assert "the extra `foxglove`: pip install '" in done.stderr

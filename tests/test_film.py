@@ -238,5 +238,5 @@ def test_without_the_extra_the_message_names_it(tmp_path: Path) -> None:
         [sys.executable, "-c", code], capture_output=True, text=True, check=False, env=os.environ
     )
     assert done.returncode == 2
-    assert "treadwell[video]" in done.stderr
+    assert "the extra `video`: pip install '" in done.stderr
     assert ".gif needs nothing" in done.stderr

@@ -64,7 +64,8 @@ def find_model(folder: Path, name: str | None = None) -> Path:
             f"{folder.resolve().name}.xml, or say [robot] model = in a robot.toml"
         )
     raise InputError(
-        f"{folder}: no model in it is a robot on a free root without a floor; "
+        f"{folder}: has {len(files)} MJCF files, of which none is a robot on a free root without "
+        f"a floor ({', '.join(file.name for file in files[:MOST_FILES])}); "
         f"name the robot's {folder.resolve().name}.xml, or say [robot] model = in a robot.toml"
     )
 
