@@ -268,6 +268,7 @@ impl StairClimbing {
                 motion,
                 gaze: self.head.gazer.at,
                 arms: if cheers { Arms::Raised } else { Arms::AtRest },
+                ..Command::default()
             },
             state: state.name(),
             goal_passed: false,

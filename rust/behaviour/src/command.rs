@@ -102,4 +102,7 @@ pub struct Command {
     pub gaze: Gaze,
     /// What the arms do.
     pub arms: Arms,
+    /// The foot that carries the weight during the first step of a walk out of a stand, for want of room on the other side; else
+    /// the walker has it as the walk turns.
+    pub carries_first: Option<Side>,
 }

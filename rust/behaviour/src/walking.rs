@@ -12,6 +12,7 @@ mod look_around;
 mod obstacles;
 pub(crate) mod overhead;
 mod progress;
+mod room_beside;
 mod side_leg;
 mod sidle;
 mod state;
@@ -246,6 +247,7 @@ impl Behaviour for WalkingBehaviour {
             command: Command {
                 motion: self.motion.clone(),
                 gaze: self.gazer.at,
+                carries_first: self.carries_first(&tick),
                 ..Command::default()
             },
             state: state.name(),

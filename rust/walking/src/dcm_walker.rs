@@ -131,6 +131,7 @@ impl DcmWalker {
         let felt = self.feel(observation, state);
         let frame = self.frame(&felt);
         self.list.take(&command.motion, &mut self.gait, frame);
+        self.gait.carries_first = command.carries_first;
         let relief = Relief::new(slopes, frame.planar, &self.config.tuning.relief);
         let task = self.list.task(&command.motion, &self.gait, relief);
         let (balance, reference) = (&self.balance, &self.reference);

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use super::*;
+use crate::phase::GaitPhase;
 use crate::test_biped::{Ideal, biped, config, description};
 use crate::walker::Walker;
 
@@ -69,6 +70,31 @@ fn any_command() -> impl Strategy<Value = Command> {
 fn soles(world: &Ideal) -> [nalgebra::Isometry3<f64>; 2] {
     let links = world.links();
     Side::BOTH.map(|side| world.body.torso_from_sole(&links, side))
+}
+
+/// The foot that makes the first step of a walk that turns.
+fn first_swing(yaw_radps: f64, carries_first: Option<Side>) -> Side {
+    let mut world = Ideal::new();
+    let command = Command {
+        carries_first,
+        ..walk(0.0, 0.0, yaw_radps)
+    };
+    loop {
+        world.tick(&command);
+        if let GaitPhase::Single { swing, .. } = world.walker.gait.phase {
+            return swing.side;
+        }
+    }
+}
+
+#[test]
+fn the_first_step_is_that_of_the_foot_that_turns_outward_unless_told_which_carries() {
+    assert_eq!(first_swing(0.3, None), Side::Left);
+    assert_eq!(first_swing(-0.3, None), Side::Right);
+    for yaw_radps in [-0.3, 0.3] {
+        assert_eq!(first_swing(yaw_radps, Some(Side::Left)), Side::Right);
+        assert_eq!(first_swing(yaw_radps, Some(Side::Right)), Side::Left);
+    }
 }
 
 proptest! {

@@ -27,6 +27,8 @@ pub struct Gait {
     /// How the robot goes down.
     pub(crate) descent: Option<Descent>,
     last: (Side, Manner),
+    /// The foot that carries while the first step of a walk is taken, where it is told.
+    pub(crate) carries_first: Option<Side>,
 }
 
 impl Gait {
@@ -41,6 +43,7 @@ impl Gait {
             listed: Listed::default(),
             descent: None,
             last: (Side::Right, Manner::Walk),
+            carries_first: None,
         }
     }
 
@@ -151,14 +154,14 @@ impl Gait {
             };
         };
         let turning = velocity.y_mps + self.config.tuning.stance.turn_counts * velocity.yaw_radps;
-        let last = if turning > 0.0 {
+        let carries = self.carries_first.unwrap_or(if turning > 0.0 {
             Side::Right
         } else if turning < 0.0 {
             Side::Left
         } else {
             self.last.0
-        };
-        self.next_swing(&self.feet, last, task, 0)
+        });
+        self.next_swing(&self.feet, carries, task, 0)
     }
 
     /// The step behind one with foot `last` after which the feet stand as in `feet`, `ahead` others of a list left out; `None`

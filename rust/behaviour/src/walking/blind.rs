@@ -5,9 +5,10 @@
 use std::f64::consts::PI;
 
 use geometry::{angle_between, distance_m, wrap_angle};
-use terrain::support::{is_roomy, obstacles_within};
+use terrain::support::is_roomy;
 
 use super::WalkingBehaviour;
+use super::room_beside::obstacles_to_the_left;
 use crate::machine::{SightAgain, State as _};
 use crate::walking::gaze::Sweep;
 use crate::walking::state::{Blind, State};
@@ -140,9 +141,7 @@ impl WalkingBehaviour {
         if is_roomy(view, here_m, self.radius_m) {
             return self.config.tuning.look_around.apart;
         }
-        let to_the_left: f64 = obstacles_within(view, here_m, self.radius_m)
-            .map(|(place_m, _)| libm::sin(tick.bearing_rad(place_m)))
-            .sum();
+        let to_the_left = obstacles_to_the_left(tick, self.radius_m);
         let turn_rad = (self.config.tuning.blind.hand / self.radius_m).min(PI);
         if to_the_left > 0.0 {
             -turn_rad
