@@ -60,6 +60,9 @@ settings! {
         flatness: f64 = 0.25, "1", within(0.0, 1.0);
         /// Sine of the angle between a ray and a plane below which it ends beside the middle, too: 3 degrees.
         glancing: f64 = 0.05, "1", within(0.001, 1.0);
+        /// By how much, as a share of a voxel, the surface lies before the middle of what is occupied, seen from where rays come from: they
+        /// free what noise marks before it, and nothing frees what noise marks behind it.
+        before: f64 = 0.1, "1", within(0.0, 1.0);
     }
 }
 

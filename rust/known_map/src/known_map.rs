@@ -114,6 +114,7 @@ impl KnownMap {
             reach: tuning.reach,
             flatness: tuning.flatness,
             glancing: tuning.glancing,
+            before: tuning.before,
         };
         let made = || (self.is_measured()).then(|| Arc::new(InnerSurfaces::new(solid, rule)));
         Ok(self.surfaces.get_or_init(made).as_ref())

@@ -124,11 +124,11 @@ impl SeenFrame {
                 })
             }
             Some(field) => self.product(|ray| {
-                let along = guesses.turned(&ray.direction).map(Lanes::to_array);
+                let turned = guesses.turned(&ray.direction).map(Lanes::to_array);
                 let ends_m = Lanes::from(std::array::from_fn::<_, LANES, _>(|lane| {
-                    let end_m =
-                        |a: usize| eyes_m[a][lane] + f64::from(along[a][lane]) * ray.range_m;
-                    field.distance_m([end_m(0), end_m(1), end_m(2)]) as f32
+                    let along = std::array::from_fn(|a| f64::from(turned[a][lane]));
+                    let end_m = std::array::from_fn(|a| eyes_m[a][lane] + along[a] * ray.range_m);
+                    field.distance_m(end_m, along) as f32
                 }));
                 let near = gauss(ends_m * splat(ray.per_noise));
                 splat(ray.hit) * near + splat(ray.short + self.random)

@@ -96,9 +96,9 @@ impl DistanceField {
         })
     }
 
-    /// Distance of a place from the nearest surface, m. Allocates nothing.
+    /// Distance of a place from the nearest surface, m, seen along a unit vector. Allocates nothing.
     #[inline]
-    pub fn distance_m(&self, place_m: [f64; 3]) -> f64 {
+    pub fn distance_m(&self, place_m: [f64; 3], along: [f64; 3]) -> f64 {
         match &self.kept {
             VoxelValues::Distance(distances_m) => self.between(distances_m, place_m),
             VoxelValues::Nearest(nearest, surfaces) => {
@@ -110,7 +110,7 @@ impl DistanceField {
                 let found = nearest[(at[2] * rows + at[1]) * cols + at[0]] as usize;
                 // The border is no part of the voxels.
                 let voxel = [found % cols, found / cols % rows, found / cols / rows];
-                surfaces.distance_m(voxel.map(|at| at as i64 - 1), place_m)
+                surfaces.distance_m(voxel.map(|at| at as i64 - 1), place_m, along)
             }
         }
     }
@@ -255,6 +255,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
     const SIDE_M: f64 = 0.1;
 
     proptest! {
@@ -284,7 +285,7 @@ mod tests {
             // A floor, and a small thing far above it, so that the grid is high.
             let boxes = [[[-1.0, -1.0, -0.3], [1.0, 1.0, 0.0]], [[0.9, 0.9, 1.4], [1.0, 1.0, 1.5]]];
             let field = DistanceField::new(&SolidVoxels::of_boxes(&boxes, SIDE_M).unwrap()).unwrap();
-            let found = field.distance_m([x, 0.0, height]);
+            let found = field.distance_m([x, 0.0, height], DOWN);
             prop_assert!((found - height).abs() < 1e-6, "{found}");
         }
     }
@@ -295,13 +296,13 @@ mod tests {
         let post = [[-1.0, -1.0, 0.0], [-0.9, -0.9, 1.0]];
         let field =
             DistanceField::new(&SolidVoxels::of_boxes(&[floor, post], SIDE_M).unwrap()).unwrap();
-        assert!((field.distance_m([0.95, 0.0, 1.55]) - 1.55).abs() < 1e-6);
+        assert!((field.distance_m([0.95, 0.0, 1.55], DOWN) - 1.55).abs() < 1e-6);
         // Below the floor lies another side of it.
-        assert!((field.distance_m([0.5, 0.5, -0.02]) + 0.02).abs() < 1e-6);
-        assert!((field.distance_m([0.5, 0.5, -0.4]) - 0.3).abs() < 1e-6);
-        assert!(field.distance_m([f64::NAN, 0.5, 0.5]).is_nan());
+        assert!((field.distance_m([0.5, 0.5, -0.02], DOWN) + 0.02).abs() < 1e-6);
+        assert!((field.distance_m([0.5, 0.5, -0.4], DOWN) - 0.3).abs() < 1e-6);
+        assert!(field.distance_m([f64::NAN, 0.5, 0.5], DOWN).is_nan());
         let flat = DistanceField::new(&SolidVoxels::of_boxes(&[floor], SIDE_M).unwrap()).unwrap();
-        assert!((flat.distance_m([0.0, 0.0, 1.0]) - 1.0).abs() < 1e-6);
+        assert!((flat.distance_m([0.0, 0.0, 1.0], DOWN) - 1.0).abs() < 1e-6);
     }
 
     #[test]
@@ -310,6 +311,7 @@ mod tests {
             reach: 2,
             flatness: 0.25,
             glancing: 0.05,
+            before: 0.0,
         };
         let floor = [[-1.0, -1.0, -0.1], [1.0, 1.0, 0.1]];
         let post = [[-1.0, -1.0, 0.0], [-0.9, -0.9, 1.0]];
@@ -317,7 +319,7 @@ mod tests {
         let field =
             DistanceField::measured(&voxels, &Arc::new(InnerSurfaces::new(&voxels, rule))).unwrap();
         for height_m in [-0.05_f64, 0.0, 0.05, 0.15, 0.4] {
-            let found = field.distance_m([0.3, 0.3, height_m]);
+            let found = field.distance_m([0.3, 0.3, height_m], DOWN);
             // The plane of each layer is drawn an eighth of a voxel to its own side.
             assert!(
                 (found - height_m.abs()).abs() < 0.015,
@@ -325,7 +327,7 @@ mod tests {
             );
         }
         // Beyond the edge of a surface the way to it counts.
-        let beyond_m = field.distance_m([1.4, 0.0, 0.0]);
+        let beyond_m = field.distance_m([1.4, 0.0, 0.0], DOWN);
         assert!((0.25..0.55).contains(&beyond_m), "{beyond_m}");
     }
 }

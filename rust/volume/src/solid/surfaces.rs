@@ -24,6 +24,9 @@ pub struct InnerSurfaceRule {
     pub flatness: f64,
     /// Sine of the angle below which a ray does not tell where it meets a plane.
     pub glancing: f64,
+    /// By how much, as a share of a voxel, the surface lies before the middle of what is occupied, on the side from which it is seen: rays
+    /// free what noise marks before it, and nothing frees what noise marks behind it.
+    pub before: f64,
 }
 
 /// What is occupied about a voxel.
@@ -89,6 +92,12 @@ impl InnerSurfaces {
         })
     }
 
+    /// How far the surface lies before the middle of what is occupied, m.
+    #[inline]
+    fn before_m(&self) -> f64 {
+        self.rule.before * self.solid.resolution_m
+    }
+
     /// How far it is along a unit vector to the surface of a solid voxel, which a ray enters at `face_m`. No further than what is looked
     /// at about a voxel.
     #[inline]
@@ -105,26 +114,29 @@ impl InnerSurfaces {
         let (side_m, along) = (self.solid.resolution_m, Vector3::from(direction));
         let off_m = surface.middle_m - Vector3::from(origin_m);
         let steepness = surface.normal.dot(&along);
-        let reach_m = self.rule.reach as f64 * side_m;
+        let (reach_m, before_m) = (self.rule.reach as f64 * side_m, self.before_m());
         let found_m = if steepness.abs() > self.rule.glancing {
-            (surface.normal.dot(&off_m) / steepness).clamp(face_m - side_m, face_m + 2.0 * reach_m)
+            let met_m = surface.normal.dot(&off_m) / steepness - before_m / steepness.abs();
+            met_m.clamp(face_m - side_m, face_m + 2.0 * reach_m)
         } else {
-            along.dot(&off_m).clamp(face_m, face_m + reach_m)
+            (along.dot(&off_m) - before_m).clamp(face_m, face_m + reach_m)
         };
         found_m.max(0.0)
     }
 
-    /// Distance of a place from the surface of a solid voxel, m: a plane reaches a voxel to each side.
-    pub(super) fn distance_m(&self, voxel: [i64; 3], at_m: [f64; 3]) -> f64 {
+    /// Distance of a place from the surface of a solid voxel as it is seen along a unit vector, m: a plane reaches a voxel to each side.
+    #[inline]
+    pub(super) fn distance_m(&self, voxel: [i64; 3], at_m: [f64; 3], along: [f64; 3]) -> f64 {
         let Some(surface) = self.at(voxel) else {
             return f64::INFINITY;
         };
-        let off_m = Vector3::from(at_m) - surface.middle_m;
+        let (off_m, along) = (Vector3::from(at_m) - surface.middle_m, Vector3::from(along));
         if surface.normal == Vector3::zeros() {
-            return off_m.norm();
+            return (off_m + along * self.before_m()).norm();
         }
-        let away_m = surface.normal.dot(&off_m);
-        let beside_m = (off_m.norm_squared() - away_m * away_m).max(0.0).sqrt();
+        let middle_m = surface.normal.dot(&off_m);
+        let beside_m = (off_m.norm_squared() - middle_m * middle_m).max(0.0).sqrt();
+        let away_m = middle_m + self.before_m().copysign(surface.normal.dot(&along));
         geometry::hypot(away_m, (beside_m - self.solid.resolution_m).max(0.0))
     }
 
@@ -196,6 +208,7 @@ mod tests {
         reach: 2,
         flatness: 0.25,
         glancing: 0.05,
+        before: 0.0,
     };
 
     /// The voxels in which points of a plane at `height_m`, tilted, lie: some a little off.
