@@ -26,14 +26,16 @@ impl LegPosture {
         self.odometry_from_torso_rotation * self.torso_from_sole[side.index()].translation.vector
     }
 
-    /// How high the middle of a sole is over its front edge, m, where its heel is lifted: its toes point down against the other sole by
-    /// more than `limit_rad`, which no error of an encoder does.
-    fn lifted_m(&self, side: Side, limit_rad: f64) -> f64 {
-        let [own, other] = [side, side.other()].map(|side| {
-            let sole = self.torso_from_sole[side.index()].rotation;
-            (self.odometry_from_torso_rotation * (sole * Vector3::x())).z
-        });
-        let down = other - own;
+    /// How much a sole rises from heel to toes, per metre of it.
+    fn toes_up(&self, side: Side) -> f64 {
+        let sole = self.torso_from_sole[side.index()].rotation;
+        (self.odometry_from_torso_rotation * (sole * Vector3::x())).z
+    }
+
+    /// How high the middle of a sole is over its front edge, m, where its heel is lifted: its toes point down by more than `limit_rad`
+    /// against how it lay, `toes_up`, as it carried alone. Another sole tells nothing of it: on a bevel no two lie alike.
+    fn lifted_m(&self, side: Side, toes_up: f64, limit_rad: f64) -> f64 {
+        let down = toes_up - self.toes_up(side);
         if down > libm::sin(limit_rad) {
             self.half_sole_m * down
         } else {
@@ -64,6 +66,8 @@ impl LegPosture {
 #[derive(Debug, Clone)]
 pub(crate) struct LegOdometry {
     anchors_m: [Option<Vector3<f64>>; 2],
+    /// How each sole lay, from heel to toes, as it carried alone last, or took hold since.
+    toes_up: [f64; 2],
     /// The torso's origin in the odometry frame, m.
     pub(crate) torso_m: Vector3<f64>,
     /// Feet that stand, or are to land, on a slope.
@@ -74,6 +78,7 @@ impl LegOdometry {
     pub(crate) const fn new() -> Self {
         Self {
             anchors_m: [None; 2],
+            toes_up: [0.0; 2],
             torso_m: Vector3::new(0.0, 0.0, 0.0),
             on_slope: [false; 2],
         }
@@ -94,6 +99,7 @@ impl LegOdometry {
             let sole = self.torso_m + reach;
             Some(Vector3::new(sole.x, sole.y, 0.0))
         });
+        self.toes_up = Side::BOTH.map(|side| legs.toes_up(side));
     }
 
     /// Takes in the legs and what they carry; returns the robot's frame.
@@ -151,6 +157,9 @@ impl LegOdometry {
         let same_level =
             |a: &Vector3<f64>, b: &Vector3<f64>| (a.z - b.z).abs() < config.level_band && level;
         for side in Side::BOTH {
+            if contacts.holds(side) && !contacts.holds(side.other()) {
+                self.toes_up[side.index()] = legs.toes_up(side);
+            }
             let other = self.anchors_m[side.other().index()];
             let anchor = &mut self.anchors_m[side.index()];
             if contacts.holds(side) {
@@ -160,6 +169,7 @@ impl LegOdometry {
                         landed.z = other.z;
                     }
                     *anchor = Some(landed);
+                    self.toes_up[side.index()] = legs.toes_up(side);
                 }
             } else if let Some(other) = other.filter(|_| contacts.holds(side.other())) {
                 let own = anchor.take();
@@ -180,7 +190,7 @@ impl LegOdometry {
         other_m: f64,
         limit_rad: f64,
     ) {
-        let lifted_m = legs.lifted_m(side, limit_rad);
+        let lifted_m = legs.lifted_m(side, self.toes_up[side.index()], limit_rad);
         let again_m = own_m + legs.reach_m(side.other()).z - legs.reach_m(side).z + lifted_m;
         if let Some(anchor) = &mut self.anchors_m[side.other().index()] {
             anchor.z = f64::midpoint(other_m, again_m);

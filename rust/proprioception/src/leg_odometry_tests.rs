@@ -74,6 +74,41 @@ fn a_heel_that_lifts_before_the_foot_lets_go_does_not_lower_the_other_level() {
     assert!((level_m + RISE_M).abs() < 1e-3, "{level_m}");
 }
 
+#[test]
+fn a_foot_that_leaves_level_ground_for_a_bevel_has_not_lifted_its_heel() {
+    const RISE_M: f64 = 0.02;
+    const BEVEL_RAD: f64 = 0.2;
+    let config = ProprioceptionConfig::default();
+    let mut contacts = FootContacts::new(65.0, &config);
+    let mut odometry = LegOdometry::new();
+    let legs = |left_m: f64, toes_up_rad: f64| LegPosture {
+        odometry_from_torso_rotation: UnitQuaternion::identity(),
+        torso_from_sole: [
+            Isometry3::from_parts(
+                Translation3::new(0.1, 0.04, left_m - 0.2),
+                UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -toes_up_rad),
+            ),
+            Isometry3::translation(0.0, -0.04, -0.2),
+        ],
+        half_sole_m: 0.05,
+    };
+    odometry.start(&legs(0.0, 0.0));
+    let mut level_m = 0.0;
+    for (left_m, toes_up_rad, share) in [
+        (0.0, 0.0, 0.0),
+        (RISE_M, BEVEL_RAD, 0.5),
+        (RISE_M, BEVEL_RAD, 1.0),
+    ] {
+        for _ in 0..50 {
+            let loads = [share, 1.0 - share].map(|share| [0.25 * 65.0 * share; 4]);
+            contacts.update(&loads, &config);
+            let robot = odometry.update(&legs(left_m, toes_up_rad), &contacts, &config);
+            level_m = robot.origin().inner.z;
+        }
+    }
+    assert!((level_m - RISE_M).abs() < 1e-3, "{level_m}");
+}
+
 /// Height of the robot after steps of 5 mm up each, told or not told that they are a slope's.
 fn climbed_m(on_slope: bool) -> f64 {
     const STEP_M: f64 = 0.005;
