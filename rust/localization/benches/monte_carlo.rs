@@ -79,6 +79,7 @@ fn body(number: u64, odometry_from_robot: Isometry3<f64>) -> BodyState {
         foot_loads_n: [25.0; 2],
         support: Side::Left,
         stands_level: true,
+        on_slope: false,
         odometry_from_robot: Pose::wrap(odometry_from_robot),
         robot_from_torso: Pose::wrap(Isometry3::translation(0.0, 0.0, 0.33)),
     }

@@ -152,6 +152,7 @@ impl Perception {
         let torso_from_camera = body.torso_from_camera(&body_then.links);
         let robot_from_camera: Pose<Robot, Camera> = body_then.robot_from_torso * torso_from_camera;
         self.scan.read(frame, robot_from_camera)?;
+        self.scan.on_slope = body_then.on_slope;
         let _own_pixels =
             self.self_filter
                 .mask(&mut self.scan, &body_then.links, &torso_from_camera);

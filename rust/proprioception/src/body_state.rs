@@ -32,6 +32,8 @@ pub struct BodyState {
     pub support: Side,
     /// Whether both soles hold, on one level: on different ones, the robot's frame is somewhere between the two.
     pub stands_level: bool,
+    /// Whether a sole that holds stands on a slope: then nothing that is level carries the robot.
+    pub on_slope: bool,
     /// The robot's frame (between the soles, on the supporting surface) by leg odometry.
     pub odometry_from_robot: Pose<Odometry, Robot>,
     /// The torso in the robot's frame.

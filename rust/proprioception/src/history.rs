@@ -53,6 +53,7 @@ impl BodyStateHistory {
             foot_loads_n: state.foot_loads_n,
             support: state.support,
             stands_level: state.stands_level,
+            on_slope: state.on_slope,
             odometry_from_robot: state.odometry_from_robot,
             robot_from_torso: state.robot_from_torso,
         };

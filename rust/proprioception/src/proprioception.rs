@@ -56,6 +56,7 @@ impl Proprioception {
                 foot_loads_n: [0.0; 2],
                 support: Side::Left,
                 stands_level: true,
+                on_slope: false,
                 odometry_from_robot: Pose::identity(),
                 robot_from_torso: Pose::identity(),
             },
@@ -201,6 +202,9 @@ impl Proprioception {
         self.state.foot_loads_n = self.contacts.loads_n();
         self.state.support = self.contacts.support;
         self.state.stands_level = self.odometry.stands_level(&self.config);
+        self.state.on_slope = Side::BOTH
+            .into_iter()
+            .any(|side| self.contacts.holds(side) && self.odometry.on_slope[side.index()]);
         self.state.odometry_from_robot = odometry_from_robot;
         self.state.robot_from_torso =
             Pose::wrap(odometry_from_robot.inner.inverse() * odometry_from_torso);

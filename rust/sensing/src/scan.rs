@@ -45,6 +45,8 @@ pub struct Scan {
     pub camera: Intrinsics,
     /// Camera in the robot's frame by the measured joints and the estimated attitude; wrong by the encoders' offsets.
     pub robot_from_camera: Pose<Robot, Camera>,
+    /// Whether the robot stands on a slope: then no level surface is its ground, however near to its height one lies.
+    pub on_slope: bool,
     /// Disparity of each pixel, row by row; NaN where nothing was seen or the robot saw itself.
     pub disparity_px: Vec<f32>,
     /// Number of pixels with a disparity.
@@ -68,6 +70,7 @@ impl Scan {
             pool: pool.max(1),
             camera,
             robot_from_camera: Pose::identity(),
+            on_slope: false,
             disparity_px: vec![f32::NAN; camera.width * camera.height],
             valid: 0,
             tuning: config.tuning,

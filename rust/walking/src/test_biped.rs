@@ -288,6 +288,7 @@ impl Ideal {
             foot_loads_n: loads,
             support: Side::Left,
             stands_level: true,
+            on_slope: false,
             odometry_from_robot: Pose::identity(),
             robot_from_torso: Pose::identity(),
         };

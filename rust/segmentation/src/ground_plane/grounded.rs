@@ -26,6 +26,8 @@ pub struct Grounded<F> {
     pub(super) nearness: Nearness,
     pub(super) walls: Walls,
     pub(super) product: ProductBuffers,
+    /// Whether the robot stood on a slope as the frame was taken.
+    pub(super) on_slope: bool,
 }
 
 /// A finder with a table of settings.
@@ -59,6 +61,7 @@ impl<F: Configured> Grounded<F> {
             nearness: Nearness::default(),
             walls: Walls::new(tuning.walls, tuning.tilted.least_rise),
             product: ProductBuffers::new(tuning.steps),
+            on_slope: false,
             config,
             camera,
         })

@@ -87,10 +87,14 @@ impl<F: Finder> Grounded<F> {
     }
 
     /// The ground among the regions: while it is tracked the largest level one close to where it is expected, but none where another
-    /// level is known to lie; while it is searched, what the feet stand on.
+    /// level is known to lie, nor for a robot on a slope: the floor at its foot, or on top, is near to its height on the way. While it
+    /// is searched, what the feet stand on.
     fn find_ground(&mut self, levelled: &Levelled) -> Option<usize> {
         if self.searching() {
             return self.find_underfoot(levelled);
+        }
+        if self.on_slope {
+            return None;
         }
         let camera_m = levelled.predicted.inner.translation.z;
         (0..self.surfaces.regions.len())

@@ -41,6 +41,7 @@ impl<F: Finder> Segmenter for Grounded<F> {
             }
         }
         self.surfaces.read(scan);
+        self.on_slope = scan.on_slope;
         if !self.config.correct {
             self.show_uncorrected(scan, planes);
             return Ok(());

@@ -98,6 +98,34 @@ fn a_robot_that_sees_nothing_but_the_slope_that_it_knows_does_not_take_it_for_th
     assert!(off_rad < 0.018, "{off_rad}");
 }
 
+/// Height of the floor in the robot's frame, m, as seen by a robot 10 mm above it, and whether it is named the ground.
+fn floor_below(on_slope: bool) -> (f64, bool) {
+    let mut noise = Noise::new(4);
+    let mut segmenter = sloping(true, &mut noise);
+    let pose = camera_pose(0.0, 0.75);
+    let above_floor = turned(&pose, &Vector3::zeros(), 0.01);
+    let mut planes = planes();
+    for _ in 0..20 {
+        let mut scan = Scene::floor().scan(&above_floor, pose, SIGMA, &mut noise);
+        scan.on_slope = on_slope;
+        segmenter.segment(&scan, &mut planes).unwrap();
+    }
+    let heights_m = planes
+        .floor_height_m
+        .iter()
+        .filter(|height_m| !height_m.is_nan());
+    let height_m = median(heights_m.map(|&height_m| f64::from(height_m)).collect());
+    (height_m, planes.ground.is_some())
+}
+
+#[test]
+fn the_floor_at_the_foot_of_a_slope_is_no_ground_of_a_robot_on_it() {
+    let (height_m, is_ground) = floor_below(true);
+    assert!(!is_ground);
+    assert!((height_m + 0.01).abs() < 0.003, "{height_m}");
+    assert_eq!(floor_below(false), (0.0, true));
+}
+
 /// What takes seconds: not in the fast part of the tests.
 mod slow {
     use super::*;
