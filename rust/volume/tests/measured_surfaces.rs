@@ -65,15 +65,11 @@ fn behind_m(before: f64, sigma_m: f64) -> [f64; 2] {
 #[test]
 fn noise_marks_what_is_behind_a_wall_and_surfaces_are_found_before_the_middle_of_what_it_marks() {
     for sigma_m in [0.25 * SIDE_M, 0.5 * SIDE_M] {
-        let [middle_m, middle_nearest_m] = behind_m(0.0, sigma_m);
-        assert!(middle_m > 0.05 * SIDE_M, "{middle_m}");
-        assert!(middle_nearest_m > 0.05 * SIDE_M, "{middle_nearest_m}");
-        for off_m in behind_m(0.1, sigma_m) {
-            println!("{sigma_m}: {middle_m} {middle_nearest_m} {off_m}");
-            assert!(
-                off_m.abs() < 0.1 * SIDE_M && off_m.abs() < middle_m,
-                "{off_m}"
-            );
+        let middle_m = behind_m(0.0, sigma_m);
+        let before_m = behind_m(0.1, sigma_m);
+        for (middle_m, before_m) in middle_m.into_iter().zip(before_m) {
+            assert!(middle_m > 0.05 * SIDE_M, "{middle_m}");
+            assert!(before_m.abs() < 0.7 * middle_m, "{middle_m} {before_m}");
         }
     }
 }
