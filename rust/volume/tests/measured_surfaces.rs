@@ -1,5 +1,7 @@
 //! Where rays end in a map that noisy ranges made: on the mean where the surface is.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
 use std::sync::Arc;
 
 use testkit::synthetic::Noise;
@@ -69,7 +71,7 @@ fn noise_marks_what_is_behind_a_wall_and_surfaces_are_found_before_the_middle_of
         let before_m = behind_m(0.1, sigma_m);
         for (middle_m, before_m) in middle_m.into_iter().zip(before_m) {
             assert!(middle_m > 0.05 * SIDE_M, "{middle_m}");
-            assert!(before_m.abs() < 0.7 * middle_m, "{middle_m} {before_m}");
+            assert!(before_m.abs() < 0.8 * middle_m, "{middle_m} {before_m}");
         }
     }
 }
