@@ -24,7 +24,7 @@ pub struct Estimate {
     pub map_from_robot: Pose<Map, Robot>,
     /// The odometry frame in the map: what the localizer corrected so far.
     pub map_from_odometry: Pose<Map, Odometry>,
-    /// Whether the estimate is none that may be acted on: the localizer does not know where the robot is.
+    /// Whether the localizer does not know where the robot is, so that nobody should act on the estimate.
     pub lost: bool,
 }
 
