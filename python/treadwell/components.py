@@ -12,19 +12,32 @@ TRUTH: Final = "truth"
 """The localizer that the harness puts in: the core has none that knows the truth."""
 _COMPONENTS: Final = [
     *_core.components(),
-    ("localizer", TRUTH, "the simulator's own pose; for ablations only, the result says so", None),
+    (
+        "localizer",
+        TRUTH,
+        "the simulator's own pose; for ablations only, the result says so",
+        None,
+        [],
+    ),
 ]
 
 COMPONENTS: Final[dict[str, dict[str, str]]] = {
-    slot: {name: about for of, name, about, _ in _COMPONENTS if of == slot}
+    slot: {name: about for of, name, about, *_ in _COMPONENTS if of == slot}
     for slot in dict.fromkeys(slot for slot, *_ in _COMPONENTS)
 }
 """Slot of `[navigation]` -> name -> one line on what it is."""
 
 SOURCES: Final[dict[str, dict[str, str | None]]] = {
-    slot: {name: source for of, name, _, source in _COMPONENTS if of == slot} for slot in COMPONENTS
+    slot: {name: source for of, name, _, source, _ in _COMPONENTS if of == slot}
+    for slot in COMPONENTS
 }
 """Slot -> name -> the paper that it is of; None where it is of no paper."""
+
+TABLES: Final[dict[str, dict[str, frozenset[str]]]] = {
+    slot: {name: frozenset(tables) for of, name, *_, tables in _COMPONENTS if of == slot}
+    for slot in COMPONENTS
+}
+"""Slot -> name -> the tables `[navigation.<table>]` that it reads, beside those of every run."""
 
 PAPERS: Final = {
     "000": "Gutmann, Fukuchi, Fujita: A Floor and Obstacle Height Map for 3D Navigation of a "

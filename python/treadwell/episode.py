@@ -1,5 +1,6 @@
 """One episode: observe, tick, act, advance, judge. What is written of it: `run.py`."""
 
+import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,6 +35,7 @@ from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.overrides import Overrides, with_settings
 from treadwell.scenario.scaling import size_of, to_robot
+from treadwell.scenario.unread import unread
 from treadwell.senses.sensors import Sensors
 from treadwell.stage_times import StageTimes
 
@@ -138,6 +140,8 @@ class Episode:
             settings = with_settings(overrides, class_names(components))
             components = brought(components)
             scenario = load_scenario(scenario, robot=robot, seed=seed, overrides=settings)
+            for sentence in unread(scenario, components).values():
+                warnings.warn(sentence, stacklevel=2)
         self.robot = load_robot(scenario.robot)
         self.scenario = scenario = to_robot(scenario, self.robot)
         self.course = build_course(scenario, self.robot)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from treadwell.cli.output import write_table
+from treadwell.cli.output import write_notes, write_table
 from treadwell.course.build import build_course
 from treadwell.course.course import Course
 from treadwell.plugins import ForeignPart, examined, foreign_parts, stand_in
@@ -12,6 +12,7 @@ from treadwell.scenario.event_table import EventTable
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.scaling import to_robot
+from treadwell.scenario.unread import unread
 
 
 def checked(
@@ -54,6 +55,7 @@ def checked(
         "elements": _elements(course),
         "events": [_event(event) for event in course.events],
         "navigation": scenario.navigation.slots(),
+        "unread": list(unread(scenario).values()),
         "python": [
             {"slot": p.slot, "name": p.name, "class": p.target, "file": str(file or "")}
             for p, file in files.items()
@@ -97,6 +99,7 @@ def show(document: Mapping[str, Any]) -> None:
     ]
     title = f"{document['scenario']}: {document['description']}".rstrip(": ")
     write_table(title, ("", ""), rows)
+    write_notes(document["unread"])
     if document["elements"]:
         lines = [
             (

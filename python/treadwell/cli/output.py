@@ -5,7 +5,7 @@ import json
 import os
 import re
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -60,6 +60,16 @@ def announce(parts: "Mapping[ForeignPart, Path | None]") -> None:
     """
     for part, file in parts.items():
         write_message(f"python:    {part.said(file)}")
+
+
+def write_notes(notes: Iterable[str]) -> None:
+    """Say what may be other than it was meant, on standard error; nothing where there is nothing.
+
+    Args:
+        notes: a sentence each, without a full stop.
+    """
+    for note in notes:
+        write_message(f"note:      {note}")
 
 
 _WIDTH_OF_A_FILE: Final = 160

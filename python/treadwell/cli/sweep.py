@@ -9,6 +9,7 @@ from treadwell.cli.output import (
     announce,
     write_json,
     write_message,
+    write_notes,
     write_table,
 )
 from treadwell.cli.sweep_progress import SweepProgress
@@ -48,6 +49,7 @@ def sweep(
     if not user_code:
         request.refuse_user_code()
     announce(request.python())
+    write_notes(request.unread())
     folder = sweep_folder(out, asked.name)
     with SweepProgress(len(request.keys())) as progress:
         try:

@@ -12,6 +12,7 @@ from treadwell.plugins import ForeignPart, examined, foreign_parts, refuse_user_
 from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import find_scenario, load_scenario, read_toml
 from treadwell.scenario.model import Scenario
+from treadwell.scenario.unread import unread
 from treadwell.sweeps.content import build_hash, line_hash
 from treadwell.sweeps.variants import variants
 from treadwell.version import __version__
@@ -51,6 +52,7 @@ class Line:
             its episodes.
         hash: of the files that it depends on, and of what the scenario becomes.
         classes: (`package.module:Class`, hash of what it does) of each of the parts.
+        unread: (key, sentence) of each of the settings that changes nothing in it.
     """
 
     file: Path
@@ -63,6 +65,7 @@ class Line:
     parts: tuple[ForeignPart, ...]
     hash: str
     classes: tuple[tuple[str, str], ...] = ()
+    unread: tuple[tuple[str, str], ...] = ()
 
     def keys(self) -> list[Key]:
         """Return its episodes."""
@@ -120,6 +123,12 @@ class Request:
         for line in self.lines:
             found.update(examined(line.parts, str(line.file)))
         return found
+
+    def unread(self) -> list[str]:
+        """Return a sentence for each setting that changes nothing in any of its lines."""
+        first = dict(self.lines[0].unread)
+        everywhere = set(first).intersection(*(dict(line.unread) for line in self.lines))
+        return [sentence for key, sentence in first.items() if key in everywhere]
 
     def refuse_user_code(self) -> None:
         """Refuse it where a scenario names a class.
@@ -205,6 +214,7 @@ def make_line(
         parts=parts,
         hash=line_hash(file, made, loaded, [both, robot]),
         classes=tuple((name, class_hash(name)) for name in dict.fromkeys(p.target for p in parts)),
+        unread=tuple(unread(made).items()),
     )
 
 

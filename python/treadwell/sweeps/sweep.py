@@ -31,7 +31,8 @@ class Sweep:
     Attributes:
         folder: where everything lies.
         document: as in `results.json`.
-        notes: a sentence on each class that was edited since the sweep began.
+        notes: a sentence on each class that was edited since the sweep began, and on each setting
+            that changed nothing.
     """
 
     folder: Path
@@ -135,7 +136,7 @@ def sweep(  # noqa: PLR0913 - one an option
         request.refuse_user_code()
     request.python()
     folder = sweep_folder(None if out is None else Path(out), asked.name)
-    notes: list[str] = []
+    notes = request.unread()
     document = conduct(
         request,
         folder,

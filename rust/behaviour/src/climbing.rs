@@ -44,7 +44,7 @@ use crate::machine::{Interruption, Machine, State as _, Tick};
 use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{
     Arms, Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation,
-    WalkingBehaviour,
+    WalkingBehaviour, WalkingConfig,
 };
 pub use config::StairClimbingConfig;
 use flight::{Flight, StepRules};
@@ -62,7 +62,10 @@ pub(crate) const STEP_BY_STEP: BehaviourPart = Part {
     name: "stair_climbing",
     about: "walks where it can, climbs where stairs lead on, both feet on each step",
     source: Some("003, section V"),
-    tables: &[TableDescription::of::<StairClimbingConfig>()],
+    tables: &[
+        TableDescription::of::<StairClimbingConfig>(),
+        TableDescription::of::<WalkingConfig>(),
+    ],
     make: |needs| {
         Ok(Box::new(StairClimbing::of(
             needs,
@@ -80,7 +83,10 @@ pub(crate) const CONTINUOUS: BehaviourPart = Part {
     name: "continuous",
     about: "climbs one foot a step without stopping where the treads allow it",
     source: Some("003, section VIII, left to the future there"),
-    tables: &[TableDescription::at::<StairClimbingConfig>(CONTINUOUS_KEY)],
+    tables: &[
+        TableDescription::at::<StairClimbingConfig>(CONTINUOUS_KEY),
+        TableDescription::of::<WalkingConfig>(),
+    ],
     make: |needs| {
         Ok(Box::new(StairClimbing::of(
             needs,

@@ -26,7 +26,7 @@ use crate::machine::{Interruption, Machine, SightAgain, State as _, Tick};
 use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{
     Behaviour, BehaviourError, Command, Decision, Motion, Outcome, PlannedFootsteps, Situation,
-    StairClimbingConfig, WalkingBehaviour,
+    StairClimbingConfig, WalkingBehaviour, WalkingConfig,
 };
 pub use config::SteppingConfig;
 use failed::Failed;
@@ -44,6 +44,8 @@ pub(crate) const PART: BehaviourPart = Part {
     tables: &[
         TableDescription::of::<FootstepsConfig>(),
         TableDescription::of::<SteppingConfig>(),
+        TableDescription::of::<StairClimbingConfig>(),
+        TableDescription::of::<WalkingConfig>(),
     ],
     make: |needs| Ok(Box::new(Footsteps::of(needs)?)),
 };

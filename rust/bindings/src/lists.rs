@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use robot::Description;
-use settings::Scale;
+use settings::{Scale, TableDescription};
 
 use crate::error::parse;
 
@@ -12,22 +12,29 @@ type Row = (
     &'static str,
     &'static str,
     Option<&'static str>,
+    Vec<&'static str>,
 );
 
-/// Slot, name, one line and paper of each component that a name stands for.
+/// Slot, name, one line and paper of each component that a name stands for, and the names of its tables, as in `fog` of `[navigation.fog]`.
 #[pyfunction]
 pub(crate) fn components() -> Vec<Row> {
     let all = pilot::components().into_iter();
-    all.map(|(slot, one)| (slot, one.name, one.about, one.source))
-        .collect()
+    all.map(|(slot, one)| {
+        let tables = one.tables.iter().map(last_word).collect();
+        (slot, one.name, one.about, one.source, tables)
+    })
+    .collect()
 }
 
 /// The names of the tables of settings, as in `fog` of `[navigation.fog]`, and `gait`.
 #[pyfunction]
 pub(crate) fn tables() -> Vec<&'static str> {
-    let all = pilot::tables();
-    let last = |key: &'static str| key.rsplit_once('.').map_or(key, |(_, name)| name);
-    all.iter().map(|table| last(table.key)).collect()
+    pilot::tables().iter().map(last_word).collect()
+}
+
+fn last_word(table: &TableDescription) -> &'static str {
+    let key = table.key;
+    key.rsplit_once('.').map_or(key, |(_, name)| name)
 }
 
 /// All tables of settings as JSON, those of what is not part of a run as well: key, about, parameters, schema; with the defaults that

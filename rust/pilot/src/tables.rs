@@ -57,8 +57,58 @@ pub fn sized(given: &Tables, scale: &Scale) -> Tables {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Components, Pilot, Settings};
     use proptest::prelude::*;
-    use serde_json::json;
+    use serde_json::{Value, json};
+    use std::sync::Arc;
+    use volume::octree::{Octree, OctreeConfig};
+
+    /// Settings of a pilot with the usual components but for one.
+    fn with_component(slot: &str, name: &str) -> Value {
+        let mut settings = json!({
+            "robot": testkit::biped().description(),
+            "start": {"position": [0.0, 0.0], "height": 0.0, "yaw": 0.0},
+            "goals": [{"position": [1.0, 0.0], "radius": 0.1}],
+            "navigation": {
+                "world_model": "fog", "segmenter": "scan_line", "localizer": "odometry",
+                "planner": "a_star", "behaviour": "stair_climbing", "walker": "dcm",
+            },
+        });
+        settings["navigation"][slot] = json!(name);
+        settings
+    }
+
+    #[test]
+    fn a_part_reads_no_table_that_it_does_not_list() {
+        let mut map = Octree::new(OctreeConfig::default()).unwrap();
+        let _beyond = map.occupy(&[[0.1, 0.0, -0.1]]).unwrap();
+        let map = Arc::new(map);
+        let all = components();
+        for &(slot, part) in &all {
+            let mut settings = with_component(slot, part.name);
+            let navigation = &settings["navigation"];
+            let chosen = |of: &str, name: &str| navigation[of] == json!(name);
+            let listed: Vec<_> = (all.iter())
+                .filter(|(of, one)| chosen(of, one.name))
+                .flat_map(|(_, one)| one.tables)
+                .chain(STAGES)
+                .map(|table| table.key)
+                .collect();
+            for table in tables().iter().filter(|table| !listed.contains(&table.key)) {
+                let name = table.key.trim_start_matches("navigation.");
+                settings["navigation"][name] = json!("what no table can be");
+            }
+            let settings: Settings = serde_json::from_value(settings).unwrap();
+            let made = Pilot::new(&settings, Some(&map), Components::default());
+            assert!(
+                made.is_ok(),
+                "{} {}: {}",
+                slot,
+                part.name,
+                made.err().unwrap()
+            );
+        }
+    }
 
     #[test]
     fn every_unit_is_known_and_at_the_size_of_the_defaults_nothing_changes() {

@@ -28,7 +28,11 @@ pub(crate) const VORONOI: PlannerPart = Part {
     name: "voronoi",
     about: "A* along the lines with most room to either side",
     source: Some("Dolgov et al. 2008"),
-    tables: &[TableDescription::of::<VoronoiConfig>()],
+    tables: &[
+        TableDescription::of::<VoronoiConfig>(),
+        TableDescription::of::<AStarConfig>(),
+        TableDescription::of::<GuideConfig>(),
+    ],
     make: |needs| {
         let along = near(needs)?.along_voronoi(read(needs.tables, "voronoi")?)?;
         guided(along, needs)
@@ -40,7 +44,11 @@ pub(crate) const D_STAR_LITE: PlannerPart = Part {
     name: "d_star_lite",
     about: "the way of a_star, repaired where cells change; with delayed, Delayed D*",
     source: Some("Koenig and Likhachev 2002; Ferguson and Stentz 2005 (004, refs 36.29 to 36.31)"),
-    tables: &[TableDescription::of::<DStarLiteConfig>()],
+    tables: &[
+        TableDescription::of::<DStarLiteConfig>(),
+        TableDescription::of::<AStarConfig>(),
+        TableDescription::of::<GuideConfig>(),
+    ],
     make: |needs| {
         let config = read(needs.tables, "d_star_lite")?;
         guided(near(needs)?.by_d_star_lite(&config)?, needs)
@@ -52,7 +60,11 @@ pub(crate) const FIELD_D_STAR: PlannerPart = Part {
     name: "field_d_star",
     about: "a way that is not bound to eight directions, repaired where cells change",
     source: Some("Ferguson and Stentz 2005 (004, ref 36.30)"),
-    tables: &[TableDescription::of::<FieldDStarConfig>()],
+    tables: &[
+        TableDescription::of::<FieldDStarConfig>(),
+        TableDescription::of::<AStarConfig>(),
+        TableDescription::of::<GuideConfig>(),
+    ],
     make: |needs| {
         let config = read(needs.tables, "field_d_star")?;
         guided(near(needs)?.by_field_d_star(&config)?, needs)
@@ -64,7 +76,11 @@ pub(crate) const ARA_STAR: PlannerPart = Part {
     name: "ara_star",
     about: "the best way that a budget of expansions allows, and how good it is at least",
     source: Some("Likhachev, Gordon and Thrun 2003 (004, ref 36.31)"),
-    tables: &[TableDescription::of::<AraStarConfig>()],
+    tables: &[
+        TableDescription::of::<AraStarConfig>(),
+        TableDescription::of::<AStarConfig>(),
+        TableDescription::of::<GuideConfig>(),
+    ],
     make: |needs| {
         let config = read(needs.tables, "ara_star")?;
         guided(near(needs)?.by_ara_star(config)?, needs)
@@ -76,7 +92,11 @@ pub(crate) const VORONOI_GRAPH: PlannerPart = Part {
     name: "voronoi_graph",
     about: "to the generalized Voronoi diagram, along it, and from it to the goal",
     source: Some("004, section 36.2.3; Choset and Nagatani 2001 (ref 36.7)"),
-    tables: &[TableDescription::of::<VoronoiGraphPlannerConfig>()],
+    tables: &[
+        TableDescription::of::<VoronoiGraphPlannerConfig>(),
+        TableDescription::of::<AStarConfig>(),
+        TableDescription::of::<GuideConfig>(),
+    ],
     make: |needs| {
         let config = read(needs.tables, "voronoi_graph")?;
         guided(near(needs)?.by_voronoi_graph(config)?, needs)
@@ -88,7 +108,11 @@ pub(crate) const HIERARCHICAL: PlannerPart = Part {
     name: "hierarchical",
     about: "coarse to fine: a graph of places over local maps, then A* over those on its way",
     source: Some("004, section 36.3.6; Botea, Müller and Schaeffer 2004"),
-    tables: &[TableDescription::of::<HierarchicalConfig>()],
+    tables: &[
+        TableDescription::of::<HierarchicalConfig>(),
+        TableDescription::of::<AStarConfig>(),
+        TableDescription::of::<GuideConfig>(),
+    ],
     make: |needs| {
         let config = read(needs.tables, "hierarchical")?;
         guided(near(needs)?.by_hierarchy(config)?, needs)

@@ -16,7 +16,7 @@ use segmentation::Planes;
 use settings::{ConfigError, Part, Table, TableDescription, read};
 
 use crate::localizer::{Estimate, Localizer, LocalizerError};
-use crate::odometry::OdometryLocalizer;
+use crate::odometry::{OdometryLocalizer, OdometryLocalizerConfig};
 use crate::part::LocalizerPart;
 
 pub use config::FastSlamLocalizerConfig;
@@ -26,7 +26,10 @@ pub(crate) const PART: LocalizerPart = Part {
     name: "fast_slam",
     about: "legs' odometry, corrected by rocks and poles that are mapped on the way",
     source: Some("004, section 36.2.4; Montemerlo et al. 2002 (ref 36.8)"),
-    tables: &[TableDescription::of::<FastSlamLocalizerConfig>()],
+    tables: &[
+        TableDescription::of::<FastSlamLocalizerConfig>(),
+        TableDescription::of::<OdometryLocalizerConfig>(),
+    ],
     make: |needs| {
         let odometry = read(needs.tables, "odometry")?;
         let (start, stance_m) = (needs.start_or_origin(), needs.stance_m);

@@ -23,7 +23,7 @@ use keyframe::{Keyframe, Viewpoint};
 use profile::UprightBeam;
 
 use crate::localizer::{Estimate, Localizer, LocalizerError};
-use crate::odometry::OdometryLocalizer;
+use crate::odometry::{OdometryLocalizer, OdometryLocalizerConfig};
 use proprioception::{BodyState, ProprioceptionConfig};
 
 /// How it is listed and made.
@@ -31,7 +31,10 @@ pub(crate) const PART: LocalizerPart = Part {
     name: "scan_match",
     about: "legs' odometry, its heading kept by upright surfaces that are seen again",
     source: None,
-    tables: &[TableDescription::of::<MatchingConfig>()],
+    tables: &[
+        TableDescription::of::<MatchingConfig>(),
+        TableDescription::of::<OdometryLocalizerConfig>(),
+    ],
     make: |needs| {
         let odometry = read(needs.tables, "odometry")?;
         let (start, stance_m) = (needs.start_or_origin(), needs.stance_m);

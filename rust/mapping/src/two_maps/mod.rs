@@ -35,7 +35,10 @@ pub(crate) const PART: WorldModelPart = Part {
     name: "octree",
     about: "a static map that is told and a local one of what is seen, octrees",
     source: Some("Maier, Hornung and Bennewitz 2012 (002)"),
-    tables: &[TableDescription::of::<TwoMapsConfig>()],
+    tables: &[
+        TableDescription::of::<TwoMapsConfig>(),
+        TableDescription::of::<FogConfig>(),
+    ],
     make: |needs| {
         let (config, fog): (_, FogConfig) =
             (read(needs.tables, "octree")?, read(needs.tables, "fog")?);
