@@ -239,6 +239,26 @@ def test_stairs_are_found_by_the_surfaces_of_ones_own_segmenter() -> None:
     assert len(mapping.find_stairs(world_of_stairs(segmenter=Levels))) == 3
 
 
+def test_a_floor_that_leans_is_told_with_what_is_up() -> None:
+    assert world_of_stairs().notes == ()
+    lean = math.radians(12.0)
+    tilt = np.eye(4)
+    tilt[:3, :3] = [
+        [math.cos(lean), 0, math.sin(lean)],
+        [0, 1, 0],
+        [-math.sin(lean), 0, math.cos(lean)],
+    ]
+    world = mapping.Map("elevation", CAMERA)
+    assert world.notes == ()
+    pose = looking(0.0, 0.0, 0.5)
+    world.insert(seen(STAIRS, pose), tilt @ pose)
+    (note,) = world.notes
+    degrees = float(note.split("leans by ")[1].split(" degrees")[0])
+    up = [float(one) for one in note.split("(")[1].split(")")[0].split(",")]
+    assert abs(degrees - 12.0) < 0.5
+    assert np.allclose(up, tilt[:3, 2], atol=0.01)
+
+
 def box_in_the_way(top: float) -> mapping.FloorView:
     height = np.zeros((60, 80))
     height[20:40, 35:45] = top

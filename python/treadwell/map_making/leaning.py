@@ -34,6 +34,11 @@ class Lean:
     up: Floats
     share: float
 
+    @property
+    def said(self) -> str:
+        """How much it leans, in words."""
+        return f"what may be the floor leans by {math.degrees(self.angle):.1f} degrees"
+
 
 class Leaning:
     """Counts which way the surfaces of pictures face."""
@@ -69,14 +74,29 @@ class Leaning:
             data: how the data is taken: how much is too much.
             map_from_world: (3, 3) turn.
         """
-        lean = self.found()
-        if lean is None or lean.share <= data.floor_share or lean.angle <= data.level_within:
+        lean = self._too_much(data)
+        if lean is None:
             return []
         up = ",".join(f"{part:.4f}" for part in map_from_world.T @ lean.up)
-        return [
-            f"what may be the floor leans by {math.degrees(lean.angle):.1f} degrees in the map; "
-            f"where it is level in truth: --set 'map.up=[{up}]'"
-        ]
+        return [f"{lean.said} in the map; where it is level in truth: --set 'map.up=[{up}]'"]
+
+    def of_poses(self, data: MapTable) -> tuple[str, ...]:
+        """Return a note where the floor leans, for those who make the poses.
+
+        Args:
+            data: how the data is taken: how much is too much.
+        """
+        lean = self._too_much(data)
+        if lean is None:
+            return ()
+        up = ", ".join(f"{part:.4f}" for part in lean.up)
+        return (f"{lean.said}; where it is level in truth, turn the poses so that ({up}) is up",)
+
+    def _too_much(self, data: MapTable) -> Lean | None:
+        lean = self.found()
+        if lean is None or lean.share <= data.floor_share or lean.angle <= data.level_within:
+            return None
+        return lean
 
     def found(self) -> Lean | None:
         """Return how the largest surface lies; None where none was seen that may be floor."""

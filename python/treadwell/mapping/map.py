@@ -11,6 +11,7 @@ from treadwell._core import FloorView, RangeMap, Staircase
 from treadwell.errors import CoreError, InputError
 from treadwell.guard import Guard, blamed
 from treadwell.map_making.headroom import headroom_of
+from treadwell.map_making.leaning import Leaning
 from treadwell.map_making.made import title_of
 from treadwell.map_making.mapper import NOT_TAKEN, NOTHING_SEEN, placed_cubes
 from treadwell.map_making.placing import Placing, ground_below, placing, sensed
@@ -93,6 +94,7 @@ class Map:
             RangeMap(self._name, settings=json.dumps(self._parameters), headroom=headroom)
         self._data = MapTable()
         self._kept = KeptFrames()
+        self._leaning = Leaning()
         self._core: RangeMap | None = None
         self._place: Placing | None = None
         self._camera_set = False
@@ -201,6 +203,11 @@ class Map:
         return Path(path)
 
     @property
+    def notes(self) -> tuple[str, ...]:
+        """What may be wrong with the data, a sentence each: a floor in the pictures that leans."""
+        return self._leaning.of_poses(self._data)
+
+    @property
     def core(self) -> RangeMap:
         """The core's map, for the other parts of the library.
 
@@ -252,6 +259,7 @@ class Map:
         if not used:
             return Seen(used=False, reason=NOT_TAKEN, planes=planes)
         self._kept.insert(frame.time, pose, some, core.view())
+        self._leaning.insert(frame, pose)
         floors = planes is None or np.isfinite(planes.floor_height).any()
         idle = core.needs_surfaces and not floors
         return Seen(used=True, reason=NO_SURFACE if idle else None, planes=planes)

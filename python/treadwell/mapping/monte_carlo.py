@@ -18,6 +18,8 @@ Floats = NDArray[np.float64]
 _ROUND: Final = 1e-3
 """How far rows of a rotation may be from unit vectors at right angles."""
 _MOST_SEED: Final = 2**53
+_STRUCTURED_LIGHT: Final = 1.5e-3
+"""1/m: how ranges of structured light err at a metre (Khoshelham and Elberink 2012: 1.4 mm)."""
 
 
 class Spread(NamedTuple):
@@ -66,7 +68,10 @@ class MonteCarlo:
             seed: of all that is drawn. The same calls with the same seed give the same poses.
             overrides: settings of `[navigation.monte_carlo]`, as in
                 `{"range_model": "likelihood_field"}`, and under the key `static_map` those of
-                `[navigation.static_map]`, as in `{"static_map": {"surfaces": "faces"}}`.
+                `[navigation.static_map]`, as in `{"static_map": {"surfaces": "faces"}}`. Without
+                `range_noise_growth` the camera is taken for one of structured light, whose ranges
+                err by 1.5 mm at a metre and more with the square of the distance; a narrow stereo
+                camera errs several times as much.
 
         Raises:
             InputError: the file cannot be read, or an argument cannot be used; it is named.
@@ -75,7 +80,8 @@ class MonteCarlo:
             raise InputError(f"seed: found {seed!r}; a whole number from 0 to 2^53 is needed")
         given = dict(overrides or {})
         static_map = given.pop("static_map", {})
-        tables = {"monte_carlo": {"seed": seed, **given}, "static_map": static_map}
+        of_camera = {"seed": seed, "range_noise_growth": _STRUCTURED_LIGHT}
+        tables = {"monte_carlo": {**of_camera, **given}, "static_map": static_map}
         try:
             settings = json.dumps(tables, allow_nan=False)
         except (TypeError, ValueError) as error:
