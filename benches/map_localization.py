@@ -51,6 +51,7 @@ def main() -> None:
     """Print one line of JSON for each way and size of voxels."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=10)
+    parser.add_argument("--first-seed", type=int, default=0)
     parser.add_argument("--frames", type=int, default=300)
     parser.add_argument("--resolution", type=float, nargs="+", default=[0.04, 0.02, 0.08])
     parser.add_argument("--turned", type=float, default=0.0, help="of the room in the map, rad")
@@ -58,7 +59,8 @@ def main() -> None:
     parser.add_argument("--surfaces", default="auto")
     chosen = parser.parse_args()
     data = []
-    for seed in range(chosen.seeds):
+    seeds = range(chosen.first_seed, chosen.first_seed + chosen.seeds)
+    for seed in seeds:
         poses = carried(chosen.frames, seed, chosen.turned)
         data.append((sequence(chosen.frames, seed, chosen.turned), odometry(poses, seed)))
     for resolution in chosen.resolution:
@@ -69,7 +71,7 @@ def main() -> None:
             tree.write(str(map_file))
             for way in chosen.ways:
                 found = []
-                for seed, (frames, steps) in enumerate(data):
+                for seed, (frames, steps) in zip(seeds, data, strict=True):
                     start = frames[0].pose
                     if way == "plain":
                         update: Step = PlainField(centres, resolution, start, seed).update

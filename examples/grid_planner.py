@@ -9,8 +9,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell._core import FloorView, Goal, Staircase
-from treadwell.protocols import Plan, Pose, Setup
+from treadwell.protocols import FloorView, Goal, Plan, Pose, Setup, Staircase
 
 Numbers = NDArray[np.float64]
 Cells = tuple[NDArray[np.int64], NDArray[np.int64]]
@@ -23,12 +22,22 @@ class GridPlanner:
     Args:
         rise: changes of height that are walked over, m.
         spare: room that is wanted beside the robot, m; nearer costs more.
+        unseen: what a metre costs more beside what was not seen: an obstacle hides its own back.
+        worse: a way is kept until it costs so many times what it did.
     """
 
-    def __init__(self, rise: float = 0.015, spare: float = 0.15) -> None:
-        self.rise, self.spare, self.radius = rise, spare, 0.12
+    def __init__(
+        self, rise: float = 0.015, spare: float = 0.15, unseen: float = 1.0, worse: float = 1.1
+    ) -> None:
+        self.rise, self.spare, self.unseen, self.worse, self.radius = (
+            rise,
+            spare,
+            unseen,
+            worse,
+            0.12,
+        )
         self.path: Numbers | None = None
-        self.length = 0
+        self.paid, self.length = np.empty(0), 0
 
     def begin(self, setup: Setup) -> None:
         """Called once, before the first tick."""
@@ -40,30 +49,39 @@ class GridPlanner:
 
     def plan(self, view: FloorView, _stairs: Staircase, start: Pose, goal: Goal) -> Plan:
         """Return the way before while it holds, else a new one."""
-        x, y, z, _ = start
-        free = view.passable(z, self.rise, self.radius)
-        if self.path is not None:
-            passed = np.argmin(np.hypot(*(self.path - (x, y)).T))
-            self.path = self.path[passed:]
-            row, col = self._cells(view, self.path)
-            # A way that ends at the border of what was seen is planned on from half of it.
-            short = math.dist(self.path[-1], goal.position) > goal.radius
-            halfway = short and 2 * len(self.path) < self.length
-            inside = (row >= 0) & (col >= 0) & (row < free.shape[0]) & (col < free.shape[1])
-            away = np.hypot(*(self.path - (x, y)).T) > self.radius
-            if not halfway and free[row[inside & away], col[inside & away]].all():
-                return Plan(self.path, replanned=False)
-        room = np.minimum(view.clearance(), self.radius + self.spare)
-        price = 1.0 + 4.0 * (self.radius + self.spare - room) / self.spare
-        # Where the robot stands there is room, whatever the map says.
-        rows, cols = np.indices(free.shape)
-        here = self._cells(view, np.array([[x, y]]))
-        free |= np.hypot(rows - here[0][0], cols - here[1][0]) * view.cell < self.radius
-        self.path = self._search(view, np.where(free, price, np.inf), here, goal)
+        here = self._cells(view, np.array([start[:2]]))
+        price = self._price(view, start[2], here)
+        if self.path is not None and self._holds(view, price, start, goal):
+            return Plan(self.path, replanned=False)
+        self.path = self._search(view, price, here, goal)
         if self.path is None:
             return Plan(None, "blocked: no way through what was seen")
-        self.length = len(self.path)
+        self.length, self.paid = len(self.path), price[self._cells(view, self.path)]
         return Plan(self.path)
+
+    def _price(self, view: FloorView, z: float, here: Cells) -> Numbers:
+        """Return what a metre costs in each cell, endless where there is no room."""
+        free = view.passable(z, self.rise, self.radius)
+        wide = (z, self.rise, self.radius + self.spare)
+        room = np.minimum(view.clearance(), self.radius + self.spare)
+        price = 1.0 + 4.0 * (self.radius + self.spare - room) / self.spare
+        price += self.unseen * (view.passable(*wide) & ~view.passable(*wide, unknown=False))
+        # Where the robot stands there is room, whatever the map says.
+        rows, cols = np.indices(free.shape)
+        free |= np.hypot(rows - here[0][0], cols - here[1][0]) * view.cell < self.radius
+        return np.where(free, price, np.inf)
+
+    def _holds(self, view: FloorView, price: Numbers, start: Pose, goal: Goal) -> bool:
+        """Drop what is passed of the way, and say whether it is as good as it was."""
+        assert self.path is not None
+        passed = np.argmin(np.hypot(*(self.path - start[:2]).T))
+        self.path, self.paid = self.path[passed:], self.paid[passed:]
+        row, col = self._cells(view, self.path)
+        inside = (row >= 0) & (col >= 0) & (row < price.shape[0]) & (col < price.shape[1])
+        dear = price[row[inside], col[inside]].sum() > self.worse * self.paid[inside].sum()
+        # A way that ends at the border of what was seen is planned on from half of it.
+        short = math.dist(self.path[-1], goal.position) > goal.radius
+        return not dear and not (short and 2 * len(self.path) < self.length)
 
     def _cells(self, view: FloorView, points: Numbers) -> Cells:
         col, row = np.floor((points - view.origin) / view.cell).astype(int).T

@@ -24,8 +24,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell._core import Command, Proprioception
-from treadwell.protocols import JointTargets
+from treadwell.protocols import Command, JointTargets, Proprioception
 
 try:
     import onnxruntime

@@ -1,13 +1,20 @@
 """Claims about what ground costs: by its shape against a robot's limits, by speed and curvature."""
 
-import json
 import math
+from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
 
-from treadwell._core import GroundCosts, LocalRegression, PathWeights, SlipSense, gait_statistics
+from treadwell.costs import (
+    GroundCosts,
+    LocalRegression,
+    PathWeights,
+    SlipSense,
+    gait_statistics,
+    ground_costs,
+)
 from treadwell.errors import InputError
 from treadwell.robot.load import load_robot
 
@@ -18,8 +25,8 @@ WAVELENGTH = 2.0
 """Of rough ground, in lengths of a sole: `costs.motion.wavelength`."""
 
 
-def costs(robot: str = "qrio", settings: str = "{}") -> GroundCosts:
-    return GroundCosts(json.dumps(load_robot(robot).description()), settings)
+def costs(robot: str = "qrio", settings: dict[str, Any] | None = None) -> GroundCosts:
+    return ground_costs(robot, settings)
 
 
 @pytest.mark.parametrize("robot", ["qrio", "nao"])
@@ -48,9 +55,9 @@ def test_a_map_of_heights_costs_more_where_it_is_harder_and_has_no_way_over_a_wa
 
 def test_bad_settings_and_arrays_are_refused_by_name() -> None:
     with pytest.raises(InputError, match=r"costs\.limits\.slope must be"):
-        costs(settings='{"limits": {"slope": -1.0}}')
+        costs(settings={"limits": {"slope": -1.0}})
     with pytest.raises(InputError, match="unknown field `slop`"):
-        costs(settings='{"traversability": {"slop": 1.0}}')
+        costs(settings={"traversability": {"slop": 1.0}})
     with pytest.raises(ValueError, match="cell must be > 0 m, got 0"):
         costs().map(np.zeros((4, 4)), 0.0)
     with pytest.raises(ValueError, match="head_room must have the shape of heights"):

@@ -18,16 +18,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell._core import (
-    BodyState,
-    Command,
-    FloorView,
-    Goal,
-    Octree,
-    Planes,
-    Proprioception,
-    Scan,
-    Situation,
-    Staircase,
+    BodyState as BodyState,
+    Command as Command,
+    FloorView as FloorView,
+    Goal as Goal,
+    Octree as Octree,
+    Planes as Planes,
+    Proprioception as Proprioception,
+    Scan as Scan,
+    Situation as Situation,
+    Staircase as Staircase,
+    Stepping as Stepping,
 )
 
 Pose = tuple[float, float, float, float]

@@ -43,6 +43,7 @@ PYTHON = {
     "Parts of your own": ("treadwell.protocols",),
     "What parts are given": ("treadwell._core", "treadwell.observation"),
     "Mapping": ("treadwell.mapping",),
+    "Costs of ground": ("treadwell.costs",),
     "Maps of data": ("treadwell.map_making.making", "treadwell.map_making.request"),
     "Sources of data": ("treadwell.sources.source", "treadwell.sources.frame"),
     "Results": ("treadwell.judging.result", "treadwell.map_result"),
@@ -78,6 +79,12 @@ Crates of the core, from the ground up: each may use those above it.
 {rows}
 """
 
+ROOM_FOR_MEANINGS = (
+    "<style>.md-typeset table:not([class]) th { min-width: 2rem; } "
+    ".md-typeset td:nth-child(5) { min-width: 13rem; }</style>\n\n"
+)
+"""Before the pages of the reference: else long defaults leave their fifth column a word's width."""
+
 FETCHED = {"https://unpkg.com/iframe-worker/shim": "assets/iframe-worker.js"}
 """What built pages would load from elsewhere, and where the site has its copy."""
 
@@ -96,6 +103,8 @@ def stage(rust: Path | None) -> None:
     for page in pages():
         for name in (page, *_led_to(page)):
             _copy(name)
+    for page in (STAGE / "docs/reference").rglob("*.md"):
+        page.write_text(ROOM_FOR_MEANINGS + page.read_text(encoding="utf-8"), encoding="utf-8")
     shutil.copy(CONFIG.with_name("site.css"), STAGE / "site.css")
     for name, text in interface_pages(rust).items():
         (STAGE / name).parent.mkdir(parents=True, exist_ok=True)
@@ -125,9 +134,14 @@ def interface_pages(rust: Path | None) -> dict[str, str]:
     return made
 
 
+SAID = {"treadwell._core": "All are in `treadwell.protocols`, too: import them from there."}
+"""What a module's page says before anything else."""
+
+
 def _module(name: str) -> str:
     chosen = f"    options:\n      members: {MEMBERS[name]}\n" if name in MEMBERS else ""
-    return f"## `{name}`\n\n::: {name}\n{chosen}"
+    said = f"{SAID[name]}\n\n" if name in SAID else ""
+    return f"## `{name}`\n\n{said}::: {name}\n{chosen}"
 
 
 def _rust_page(rust: Path | None) -> str:

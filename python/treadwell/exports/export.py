@@ -79,8 +79,8 @@ def export(
         storage: of `rosbag2`: `mcap`, which is the default, or `sqlite3`.
 
     Returns:
-        The files written. A file of that name that was there is replaced, but a bag is not: its
-        folder must be new or empty.
+        The files written. A file of that name that was there is replaced; the folder of a bag must
+        be new or empty.
 
     Raises:
         InputError: there is no such run or format, or the run lacks what the format shows.

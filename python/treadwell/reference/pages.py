@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Final
 
-from treadwell.components import COMPONENTS, SOURCES
+from treadwell.components import COMPONENTS, SOURCES, TABLES
 from treadwell.reference.parameters import ParameterTable, all_tables
 from treadwell.reference.schemas import SCHEMAS
 from treadwell.reference.words import allowed, kind, shown
@@ -58,8 +58,10 @@ def _components() -> str:
     for slot, names in COMPONENTS.items():
         lines += [f"## `{slot}`", "", *_head("name", "what it is", "paper", "parameters")]
         for name, about in names.items():
-            link = f"[`{name}`](parameters/{name}.md)" if name in tables else ""
-            lines.append(_row(f"`{name}`", about, SOURCES[slot].get(name) or "none: our own", link))
+            own = sorted(TABLES[slot][name] & tables, key=lambda table: (table != name, table))
+            links = ", ".join(f"[`{table}`](parameters/{table}.md)" for table in own)
+            source = SOURCES[slot].get(name) or "none: our own"
+            lines.append(_row(f"`{name}`", about, source, links))
         lines.append("")
     return "\n".join(lines)
 
@@ -70,7 +72,7 @@ def _parameters(table: ParameterTable) -> str:
     for row in table.parameters:
         group, _, name = row.key.rpartition(".")
         unit = row.unit if row.owner is None else f"{row.unit}, of {row.owner}"
-        cells = [f"`{name}`", f"`{shown(row.default)}`", unit, row.bounds, row.meaning]
+        cells = [f"`{name}`", _default(row.default), unit, row.bounds, row.meaning]
         groups.setdefault(group, []).append([*cells, row.source or ""])
     for group, rows in groups.items():
         if group != table.key:
@@ -102,10 +104,14 @@ def _keys(described: Mapping[str, Any]) -> list[str]:
     lines = _head("key", "what", "default", "allowed", "meaning")
     needed = described.get("required", ())
     for key, value in described.get("properties", {}).items():
-        default = "needed" if key in needed else f"`{shown(value.get('default'))}`"
+        default = "needed" if key in needed else _default(value.get("default"))
         meaning = value.get("description", "")
         lines.append(_row(f"`{key}`", kind(value), default, allowed(value), meaning))
     return [*lines, ""]
+
+
+def _default(value: object) -> str:
+    return "none" if value is None else f"`{shown(value)}`"
 
 
 def _about(table: ParameterTable) -> str:
