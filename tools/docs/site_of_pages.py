@@ -80,8 +80,8 @@ Crates of the core, from the ground up: each may use those above it.
 """
 
 ROOM_FOR_MEANINGS = (
-    "<style>.md-typeset table:not([class]) th { min-width: 2rem; } "
-    ".md-typeset td:nth-child(5) { min-width: 13rem; }</style>\n\n"
+    "<style>.md-typeset table:not([class]) :is(th, td) { min-width: 2rem; padding: 0.6em; } "
+    ".md-typeset table:not([class]) td:nth-child(5) { min-width: 11rem; }</style>\n\n"
 )
 """Before the pages of the reference: else long defaults leave their fifth column a word's width."""
 
