@@ -299,7 +299,7 @@ class Miscounting(Meadow.View):
     ("slot", "answer", "message"),
     [
         ("planner", None, r"planner: Odd: .*plan\(\) must return a Plan, got None"),
-        ("planner", (1, 2), r"plan\(\)\.replanned is missing: found tuple; wanted bool"),
+        ("planner", (1, 2), r"plan\(\) must return a Plan, got tuple \(int, int\)"),
         ("planner", Plan(np.zeros((3, 3))), r"planner: .*path must be \(n, 2\)"),
         ("planner", Plan(np.zeros((0, 2))), "planner: .*n > 0"),
         ("planner", Plan(np.full((2, 2), np.nan)), "planner: .*path must be finite"),

@@ -90,7 +90,7 @@ def test_bad_files_and_settings_are_refused_by_name(tmp_path: Path) -> None:
         Octree(0.0)
     with pytest.raises(InputError, match=r"octree\.p_hit must be > 0\.5"):
         Octree(settings=json.dumps({"p_hit": 0.2}))
-    with pytest.raises(ValueError, match=r"points must be \(n, 3\)"):
+    with pytest.raises(InputError, match=r"points must be numbers \(n, 3\)"):
         Octree().insert(np.zeros((3, 2)), EYE)
     with pytest.raises(InputError, match="the eye must be finite"):
         Octree().insert(np.zeros((3, 3)), (np.nan, 0.0, 0.0))

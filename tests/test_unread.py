@@ -7,14 +7,17 @@ from pathlib import Path
 import pytest
 
 import treadwell
+from treadwell import mapping
 from treadwell.cli.app import execute
 from treadwell.components import COMPONENTS, TABLES, parameter_tables
+from treadwell.errors import InputError
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.unread import unread
 from treadwell.sweeps.request import crossed
 
 ELEVATION = "navigation.world_model=elevation"
 CELL = "navigation.fog.cell=0.03"
+HEAD = 'schema = 1\nname = "x"\n[start]\n[goal]\n'
 SENTENCE = (
     "--set navigation.fog.cell changes nothing: navigation.world_model is elevation, "
     "and only fog and octree read it"
@@ -80,3 +83,37 @@ def test_a_sweep_tells_what_none_of_its_lines_reads() -> None:
     asked = {"seeds": range(2), "settings": (CELL,)}
     assert crossed(["slalom", "doorway"], vary=one, **asked).unread() == [SENTENCE]
     assert crossed(["slalom", "doorway"], vary=both, **asked).unread() == []
+
+
+def test_a_table_of_the_file_that_nothing_reads_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "two_choices.toml"
+    text = HEAD + "[navigation.elevation]\ncell = 0.05\n"
+    file.write_text(text)
+    told = "[navigation.elevation] changes nothing: navigation.world_model is fog, and only"
+    assert execute(["check", str(file)]) == 0
+    assert capsys.readouterr().err.startswith(f"note:      {told} elevation, ")
+    assert execute(["check", str(file), "--set", "navigation.world_model=elevation"]) == 0
+    assert not capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ("[navigation.elevation]\ncel = 0.05", r"navigation.elevation.cel: unknown key; .*'cell'"),
+        (
+            "[navigation.elevation.tuning]\nxx = 1",
+            r"navigation.elevation.tuning.xx: unknown key; allowed: ",
+        ),
+    ],
+)
+def test_keys_of_what_is_not_chosen_are_checked(tmp_path: Path, table: str, message: str) -> None:
+    file = tmp_path / "wrong.toml"
+    file.write_text(f"{HEAD}{table}\n")
+    with pytest.raises(InputError, match=message):
+        load_scenario(file)
+    with pytest.raises(InputError, match=r"--set navigation.elevation.cel: unknown key"):
+        load_scenario("slalom", overrides=["navigation.elevation.cel=0.05"])
+    with pytest.raises(InputError, match=r"navigation.fog.cel: unknown key; .*'cell'"):
+        mapping.Map("elevation", overrides={"fog.cel": 0.1})

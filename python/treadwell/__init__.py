@@ -40,15 +40,21 @@ _HOMES = {
 }
 
 
+_LIBRARY = ("costs", "mapping", "protocols")
+"""Modules that users import."""
+
+
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever the name means
     """Import the doors when they are first used: the command line starts faster without MuJoCo."""
-    if name not in _HOMES:
-        raise AttributeError(f"module 'treadwell' has no attribute {name!r}")
     import importlib
 
+    if name in _LIBRARY:
+        return importlib.import_module(f"treadwell.{name}")
+    if name not in _HOMES:
+        raise AttributeError(f"module 'treadwell' has no attribute {name!r}")
     return getattr(importlib.import_module(_HOMES[name]), name)
 
 
 def __dir__() -> list[str]:
     """Return the doors, those that were not used yet, too: for completion in a notebook."""
-    return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})
+    return sorted({*__all__, *_LIBRARY, *(name for name in globals() if name.startswith("__"))})

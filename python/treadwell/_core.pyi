@@ -5,7 +5,7 @@ from typing import Any, ClassVar, final
 
 import numpy as np
 from mujoco import MjData, MjModel
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from treadwell import protocols
 from treadwell.observation import Observation
@@ -589,20 +589,20 @@ class Octree:
     def write(self, path: str) -> None: ...
     def insert(
         self,
-        points: NDArray[np.float64],
+        points: ArrayLike,
         eye: tuple[float, float, float],
         *,
         max_range: float = ...,
         each_point: bool = False,
     ) -> int: ...
-    def occupy(self, points: NDArray[np.float64]) -> int: ...
+    def occupy(self, points: ArrayLike) -> int: ...
     def occupied(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def free(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
-    def log_odds(self, points: NDArray[np.float64]) -> NDArray[np.float32]: ...
+    def log_odds(self, points: ArrayLike) -> NDArray[np.float32]: ...
     def cast_rays(
         self,
-        origins: NDArray[np.float64],
-        directions: NDArray[np.float64],
+        origins: ArrayLike,
+        directions: ArrayLike,
         max_range: float = ...,
         *,
         through_unknown: bool = True,
@@ -621,8 +621,8 @@ class RangeField:
     def __new__(cls, octree: Octree) -> RangeField: ...
     def cast(
         self,
-        origins: NDArray[np.float64],
-        directions: NDArray[np.float64],
+        origins: ArrayLike,
+        directions: ArrayLike,
         max_range: float,
     ) -> NDArray[np.float32]: ...
 

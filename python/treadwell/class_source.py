@@ -60,7 +60,7 @@ def check_methods(kind: type, methods: Methods) -> None:
 def _refuse(name: str, missing: Sequence[str], methods: Methods) -> None:
     if missing:
         listed = ", ".join(f"{method}({', '.join(methods[method])})" for method in missing)
-        raise InputError(f"{name} has no method {listed}")
+        raise InputError(f"{name} has no method {listed}, or not with these arguments")
 
 
 class _Reader:

@@ -3,7 +3,9 @@
 What others add to it is in `additions`.
 """
 
+import json
 import re
+from functools import cache
 from typing import Final
 
 from treadwell import _core
@@ -55,6 +57,29 @@ RENAMED: Final[dict[str, str]] = {"matching": "scan_match"}
 
 CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re.ASCII)
 """A user's own component: `package.module:Class`."""
+
+
+OF_CHOICE: Final = frozenset(
+    table for of_slot in TABLES.values() for tables in of_slot.values() for table in tables
+)
+"""Tables that some components read and others do not."""
+
+
+@cache
+def _parameter_keys() -> tuple[str, ...]:
+    tables = json.loads(_core.parameters())
+    return tuple(row["key"] for table in tables for row in table["parameters"])
+
+
+def parameter_names(*words: str) -> list[str]:
+    """Return the keys that a table of `[navigation]` can have, in the core's order.
+
+    Args:
+        words: of its dotted key, as `fog` or `fog`, `tuning`.
+    """
+    begin = ".".join(("navigation", *words, ""))
+    below = (key.removeprefix(begin) for key in _parameter_keys() if key.startswith(begin))
+    return list(dict.fromkeys(key.partition(".")[0] for key in below))
 
 
 def parameter_tables() -> list[str]:

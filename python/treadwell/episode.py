@@ -1,6 +1,5 @@
 """One episode: observe, tick, act, advance, judge. What is written of it: `run.py`."""
 
-import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -35,7 +34,7 @@ from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.overrides import Overrides, with_settings
 from treadwell.scenario.scaling import size_of, to_robot
-from treadwell.scenario.unread import unread
+from treadwell.scenario.unread import warn_of_unread
 from treadwell.senses.sensors import Sensors
 from treadwell.stage_times import StageTimes
 
@@ -140,8 +139,7 @@ class Episode:
             settings = with_settings(overrides, class_names(components))
             components = brought(components)
             scenario = load_scenario(scenario, robot=robot, seed=seed, overrides=settings)
-            for sentence in unread(scenario, components).values():
-                warnings.warn(sentence, stacklevel=2)
+            warn_of_unread(scenario, components)
         self.robot = load_robot(scenario.robot)
         self.scenario = scenario = to_robot(scenario, self.robot)
         self.course = build_course(scenario, self.robot)

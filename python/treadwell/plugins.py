@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from treadwell.additions import class_of
+from treadwell.additions import class_of, is_component, known
 from treadwell.class_source import check_class, check_methods
 from treadwell.components import CLASS_NAME, COMPONENTS
 from treadwell.errors import InputError
@@ -216,8 +216,14 @@ def class_names(components: Mapping[str, object]) -> dict[str, str]:
 
     So it may have a table of their parameters, and says truly what it was run with. Of a class that
     no scenario could name there is none.
+
+    Raises:
+        InputError: a name stands for no component.
     """
     named = {slot: one for slot, one in components.items() if isinstance(one, str)}
+    for slot, name in named.items():
+        if slot in COMPONENTS and not is_component(slot, name):
+            raise InputError(_no_component(slot, name))
     named |= {
         slot: name
         for slot, one in components.items()
@@ -225,6 +231,14 @@ def class_names(components: Mapping[str, object]) -> dict[str, str]:
         if CLASS_NAME.fullmatch(name := f"{one.__module__}:{one.__name__}")
     }
     return {f"navigation.{slot}": name for slot, name in named.items() if slot in COMPONENTS}
+
+
+def _no_component(slot: str, name: str) -> str:
+    names = known(slot)
+    near = difflib.get_close_matches(name, names, n=1)
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    allowed = f"one of {', '.join(names)}, 'package.module:Class', a class or an object"
+    return f"{slot}: found {name!r}; must be {allowed}{hint}"
 
 
 def brought(components: Mapping[str, object]) -> dict[str, object]:

@@ -11,7 +11,7 @@ may have or not are said with its protocol.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
@@ -50,7 +50,7 @@ class Setup:
 
     start: Pose | None
     goals: tuple[Goal, ...]
-    robot: Mapping[str, Any]
+    robot: Mapping[str, Any] = field(repr=False)
     static_map: Octree | None
 
 
@@ -168,7 +168,7 @@ class Plan:
             path.
     """
 
-    path: NDArray[np.float64] | None
+    path: NDArray[np.float64] | None = field(repr=False)
     reason: str = ""
     replanned: bool = True
     footsteps: Sequence[ListedStep] = ()

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from treadwell.episode import Episode
-from treadwell.errors import CoreError, ShellLimitError, SimulationError, TreadwellError
+from treadwell.errors import CoreError, InputError, ShellLimitError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
 from treadwell.judging.result import Result
 from treadwell.judging.verdict import Verdict
@@ -152,13 +152,14 @@ def run_episode(
         ShellLimitError: the shell allows too little memory for a recording.
     """
     made = episode.scenario
+    if not isinstance(record, bool):
+        raise InputError(f"record: found {record!r}; must be True or False")
     if record and (tight := tightness(RECORDED_RUN)):
         raise ShellLimitError(f"the run cannot be recorded: {tight}; --no-record takes a third")
     viewer = open_viewer(episode) if view else None
     scores = Scores(episode, watch)
     with Interruption() as interruption:
-        place = None if out is None else Path(out)
-        with run_folder(place, made.name, episode.robot.name, made.seed) as folder:
+        with run_folder(_place(out), made.name, episode.robot.name, made.seed) as folder:
             writers = Writers(folder, episode, record=record, viewer=viewer)
         result, problem = _played(episode, scores, writers, progress, interruption)
         remembered = scores.memory.map()
@@ -179,6 +180,13 @@ def run_episode(
         scores.memory.map(),
         findings,
     )
+
+
+def _place(out: str | Path | None) -> Path | None:
+    try:
+        return None if out is None else Path(out)
+    except TypeError:
+        raise InputError(f"out: found {out!r}; must be the path of a folder") from None
 
 
 def play_episode(episode: Episode) -> Result:

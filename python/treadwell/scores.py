@@ -47,6 +47,8 @@ class Scores:
         """Take in a camera frame, right after its tick."""
         pilot, believed, truth = self._episode.pilot, step.estimate, self._episode.judge.observed
         self.poses.add_level(believed.pose, believed.odometry, truth)
+        if believed.lost:
+            self.poses.add_lost()
         self.estimate.add_level(step.time_ns, believed.pose)
         self.truth.add_level(step.time_ns, truth)
         forgotten = pilot.maps_forgotten

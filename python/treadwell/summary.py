@@ -74,7 +74,7 @@ def result_rows(document: Mapping[str, Any]) -> list[Row]:
         ("steps taken", document.get("steps_taken")),
         ("path length", _number(document.get("path_length"), "m", 2)),
         ("replans", document.get("replans")),
-        ("localization error, mean", _number(_error(document), "m", 3)),
+        ("localization error, mean", _error(document)),
         ("ablation", "yes: the core was given the truth" if document.get("ablation") else None),
     ]
     return _known(rows)
@@ -115,7 +115,7 @@ def replay_rows(document: Mapping[str, Any]) -> list[Row]:
         ("error", facts["error"]),
         ("real-time factor", f"{document['real_time_factor']:.1f}"),
         ("core's share of the time", f"{core / max(wall, 1e-9):.0%}"),
-        ("localization error, mean", _number(_error(document), "m", 3)),
+        ("localization error, mean", _error(document)),
     ]
     return _known(rows)
 
@@ -139,10 +139,11 @@ def compared(facts: Mapping[str, Any]) -> str:
     return f"the same in all {facts['compared']} ticks, bit for bit"
 
 
-def _error(document: Mapping[str, Any]) -> float | None:
+def _error(document: Mapping[str, Any]) -> str | None:
     localization = document.get("localization") or {}
-    error: float | None = (localization.get("translation_error") or {}).get("mean")
-    return error
+    error = _number((localization.get("translation_error") or {}).get("mean"), "m", 3)
+    lost = localization.get("lost_share", 0.0)
+    return f"{error}; lost in {lost:.0%} of the frames" if error and lost else error
 
 
 def _number(value: float | None, unit: str, digits: int) -> str | None:

@@ -12,7 +12,7 @@ from treadwell.scenario.event_table import EventTable
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.scaling import to_robot
-from treadwell.scenario.unread import unread
+from treadwell.scenario.unread import unread, unread_tables
 
 
 def checked(
@@ -55,7 +55,7 @@ def checked(
         "elements": _elements(course),
         "events": [_event(event) for event in course.events],
         "navigation": scenario.navigation.slots(),
-        "unread": list(unread(scenario).values()),
+        "unread": [*unread(scenario).values(), *unread_tables(scenario)],
         "python": [
             {"slot": p.slot, "name": p.name, "class": p.target, "file": str(file or "")}
             for p, file in files.items()

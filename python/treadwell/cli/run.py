@@ -18,7 +18,7 @@ from treadwell.cli.output import (
 from treadwell.cli.progress import ProgressLine
 from treadwell.plugins import examined, foreign_parts
 from treadwell.scenario.loading import load_scenario
-from treadwell.scenario.unread import unread
+from treadwell.scenario.unread import unread, unread_tables
 from treadwell.summary import result_rows, result_title
 
 STATUS: Final = {"interrupted": INTERRUPTED, "error": ERROR}
@@ -55,7 +55,7 @@ def run(  # noqa: PLR0913 - one an option
     made = load_scenario(scenario, robot=robot, seed=seed, overrides=settings)
     if user_code:
         announce(examined(foreign_parts(made.navigation.slots()), str(made.path)))
-    write_notes(unread(made).values())
+    write_notes([*unread(made).values(), *unread_tables(made)])
     with ProgressLine(Path(scenario).stem) as progress:
         result = run_episode(
             made, out=out, record=record, view=view, progress=progress, user_code=user_code

@@ -68,6 +68,9 @@ class LocalizationErrors(Table):
     """Difference in heading, rad."""
     odometry_translation_error: Spread
     """Distance between the place by leg odometry alone and the true one, m."""
+    lost_share: Share = 0.0
+    """Share of the frames in which the robot knew that it did not know its place, as before it is
+    found and after it was carried off; the errors are of these frames, too."""
 
 
 class SurfaceEntry(Table):

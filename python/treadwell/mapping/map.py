@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, Final
 
 import numpy as np
@@ -184,6 +185,12 @@ class Map:
         title = title_of(name, self._name, frames, core.view().cell)
         self._kept.draw(Path(path), title, place.offset)
         return Path(path)
+
+    def _repr_png_(self) -> bytes | None:
+        if not self._kept.poses:
+            return None
+        with TemporaryDirectory() as folder:
+            return self.save_picture(Path(folder) / "map.png").read_bytes()
 
     def save_recording(self, path: str | Path, name: str = "map") -> Path:
         """Write what the frames saw, the sensor and the map, to be opened with `rerun`.

@@ -86,7 +86,7 @@ class MonteCarlo:
             settings = json.dumps(tables, allow_nan=False)
         except (TypeError, ValueError) as error:
             raise InputError(f"overrides: found {overrides!r}; {error}") from None
-        path = Path(file)
+        self._file = path = Path(file)
         tree = _core.Octree.read(str(path))
         self._size = (int(camera.height), int(camera.width))
         try:
@@ -100,6 +100,9 @@ class MonteCarlo:
             )
         except InputError as error:
             raise InputError(f"{path}: {error}") from None
+
+    def __repr__(self) -> str:
+        return f"<MonteCarlo in {self._file}>"
 
     def update(self, depth: ArrayLike, previous_from_current: ArrayLike) -> tuple[Floats, Spread]:
         """Take in a picture.

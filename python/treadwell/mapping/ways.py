@@ -27,7 +27,7 @@ _TRUSTED: Final = {"terrain": {"left_out": "far_levels"}}
 """A robot on its way doubts levels that it has not been near; a map that is given is believed."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Way:
     """A way, or why there is none.
 
@@ -47,6 +47,13 @@ class Way:
     cost: float
     climbs: tuple[Climb, ...]
     end: str | None
+
+    def __repr__(self) -> str:
+        if self.path is None:
+            return f"<Way: none; {self.reason}>"
+        x, y = self.path[-1]
+        to = f"{len(self.path)} points to ({x:.2f}, {y:.2f}) m"
+        return f"<Way of {to}, the {self.end or 'end'}; costs {self.cost:.2f} m>"
 
 
 def plan(

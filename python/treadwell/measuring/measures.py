@@ -19,6 +19,11 @@ class PoseErrors:
     def __init__(self) -> None:
         """Begin with none."""
         self._numbers = array("d")
+        self._lost = 0
+
+    def add_lost(self) -> None:
+        """Say of the pose that was added last that the robot knew it to be nothing to act on."""
+        self._lost += 1
 
     def add(self, estimate: Floats, odometry: Floats, truth: Floats) -> None:
         """Take in what was believed and what was so; (4, 4) each.
@@ -64,6 +69,7 @@ class PoseErrors:
             translation_error=translation,
             heading_error=heading,
             odometry_translation_error=odometry,
+            lost_share=self._lost / len(columns.T),
         )
 
 

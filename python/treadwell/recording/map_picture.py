@@ -241,9 +241,26 @@ def _draw_ways(
     axes.plot(*true, **back, zorder=4)
     axes.plot(*true, color=_TRUE, linewidth=2.0, zorder=5, label="true way")
     axes.plot(*believed, color=_BELIEVED, linewidth=1.4, zorder=6, label="believed")
+    for row in jumps(truth.rows, stride):
+        place = truth.positions()[row, :2].tolist()
+        axes.plot(*place, "o", color=_TRUE, markeredgecolor="black", markersize=6, zorder=7)
+        _named(axes, "carried here", place)
     if climbing.any():
         climbed = _with_gaps(estimate, stride, hidden=~climbing)
         axes.plot(*climbed, color=_CLIMBED, linewidth=2.0, zorder=6.5, label="climbed")
+
+
+def _named(axes: Axes, name: str, place: Sequence[float]) -> None:
+    """Write what a place is below it."""
+    axes.annotate(
+        name,
+        (place[0], place[1]),
+        xytext=(0, -14),
+        textcoords="offset points",
+        ha="center",
+        fontsize=8,
+        zorder=8,
+    )
 
 
 def _with_gaps(
@@ -286,12 +303,4 @@ def _draw_ends(axes: Axes, course: "Course", caption: Caption) -> None:
         arrowprops={"arrowstyle": "-|>", "color": "black", "linewidth": 1.2},
         zorder=8,
     )
-    axes.annotate(
-        "start",
-        start,
-        xytext=(0, -14),
-        textcoords="offset points",
-        ha="center",
-        fontsize=8,
-        zorder=8,
-    )
+    _named(axes, "start", start)

@@ -22,13 +22,13 @@ from treadwell.replaying.difference import Difference
 
 @dataclass
 class Findings:
-    """What is collected on the way; poses as (tick, estimate, odometry) of camera frames."""
+    """What is collected on the way; of camera frames (tick, time ns, estimate, odometry, lost)."""
 
     seconds: dict[str, list[float]] = field(
         default_factory=lambda: {name: [] for name in Pilot.stages}
     )
     states: list[StateEntry] = field(default_factory=list)
-    frames: list[tuple[int, int, Floats, Floats]] = field(default_factory=list)
+    frames: list[tuple[int, int, Floats, Floats, bool]] = field(default_factory=list)
     last: tuple[Observation, Tick] | None = None
     memory: MapMemory = field(default_factory=MapMemory)
     stairs: StairMemory = field(default_factory=StairMemory)
@@ -80,9 +80,9 @@ class Findings:
                 # No picture, no other stairs.
                 self.stairs.update((), climbing=bool(tick.footsteps), lost=tick.lost)
                 self.ticks += 1
-        for _, time_ns, pose, _ in self.frames:
+        for _, time_ns, pose, _, _ in self.frames:
             self.estimate.add(time_ns, pose)
-        wanted = {number: (time_ns, a, b) for number, time_ns, a, b in self.frames}
+        wanted = {frame[0]: frame for frame in self.frames}
         with suppress(BrokenLogError):  # told with the observations
             # A row is of after its tick, as the next one's senses see it; the first has no other.
             rows = read_truth(log)
@@ -90,12 +90,14 @@ class Findings:
             before = [] if first is None else [first]
             for number, row in enumerate(chain(before, before, rows)):
                 if number in wanted:
-                    time_ns, estimate, odometry = wanted[number]
+                    _, time_ns, estimate, odometry, lost = wanted[number]
                     truth = pose_matrix(row[0], row[1], row[2], 0.0)
                     truth[:3, :3] = rotation_of(row[3:])
                     self.errors.add(estimate, odometry, truth)
+                    if lost:
+                        self.errors.add_lost()
                     self.truth.add_row(time_ns, row)
 
     def _frame(self, time_ns: int, tick: Tick) -> None:
         poses = pose_matrix(*tick.estimate), pose_matrix(*tick.odometry)
-        self.frames.append((self.ticks, time_ns, *poses))
+        self.frames.append((self.ticks, time_ns, *poses, tick.lost))

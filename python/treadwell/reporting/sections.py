@@ -131,8 +131,9 @@ def _facts(run: RunData) -> list[tuple[str, str]]:
         ("replans", str(result.replans)),
     ]
     if result.localization is not None:
-        mean = result.localization.translation_error.mean
-        facts.append(("localization error", f"{1e3 * mean:.1f} mm"))
+        mean, lost = result.localization.translation_error.mean, result.localization.lost_share
+        share = f"; lost in {lost:.0%} of the frames" if lost else ""
+        facts.append(("localization error", f"{1e3 * mean:.1f} mm{share}"))
     if result.ablation:
         facts.append(("ablation", "the core was given the truth"))
     return facts

@@ -9,7 +9,7 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from treadwell.additions import known
-from treadwell.components import COMPONENTS, RENAMED, parameter_tables
+from treadwell.components import COMPONENTS, RENAMED, parameter_names, parameter_tables
 from treadwell.scenario.elements import ELEMENTS, MOVABLE
 from treadwell.scenario.events import EVENTS
 from treadwell.scenario.model import Expect, Goal, Navigation, Physics, Scenario, Sensors, Start
@@ -219,6 +219,8 @@ def _keys_at(
     extra: list[str] = []
     if path == ():
         model, extra = Scenario, ["vary"]
+    elif path[0] == "navigation" and len(path) > 1:
+        extra = parameter_names(*map(str, path[1:]))
     elif len(path) == 1:
         model = tables.get(str(path[0]))
         extra = [*parameter_tables(), *_classes(raw)] if path == ("navigation",) else []

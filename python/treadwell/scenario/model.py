@@ -14,7 +14,7 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from treadwell.additions import is_component, known
-from treadwell.components import COMPONENTS, parameter_tables
+from treadwell.components import COMPONENTS, OF_CHOICE, TABLES, parameter_tables
 from treadwell.scenario.elements import Element
 from treadwell.scenario.events import Add, Event
 from treadwell.scenario.types import (
@@ -29,7 +29,7 @@ from treadwell.scenario.types import (
     SetKeys,
     Table,
 )
-from treadwell.scenario.values import check_parameters
+from treadwell.scenario.values import check_names, check_parameters
 
 SCHEMA = 1
 SEEDS = 2**53
@@ -138,11 +138,19 @@ class Navigation(Table):
             if key not in {*parameter_tables(), *own}:
                 raise PydanticCustomError("extra_forbidden", "unknown key", {"key": key})
             check_parameters(value, (key,))
+            if key in OF_CHOICE - self.tables_read() - own:
+                check_names(value, (key,))
         return self
 
     def slots(self) -> dict[str, str]:
         """Return slot -> the name of the component chosen."""
         return {slot: getattr(self, slot) for slot in COMPONENTS}
+
+    def tables_read(self) -> set[str]:
+        """Return the names of the tables that the core's own among the chosen components read."""
+        return {
+            name for slot, chosen in self.slots().items() for name in TABLES[slot].get(chosen, ())
+        }
 
     def parameters(self) -> dict[str, dict[str, Any]]:
         """Return component -> its parameters, untouched: what goes to the core."""

@@ -19,7 +19,7 @@ MOST_DRAWS = 100
 LONGEST_SETTING = 10_000
 DEEPEST: Final = 100
 """Tables within each other."""
-Overrides = Sequence[str] | Mapping[str, Any]
+Overrides = Sequence[str] | Mapping[str, Any] | None
 """Settings `KEY=VALUE`; or keys, dotted or as tables within tables, with their values."""
 Number = Annotated[float, Field(ge=-1e6, le=1e6)]
 Pair = Annotated[tuple[Number, Number], Field(strict=False)]
@@ -92,7 +92,7 @@ def read_overrides(overrides: Overrides) -> list[tuple[str, Any]]:
     """
     if isinstance(overrides, Mapping):
         return list(_flat(overrides, ()))
-    listed = (overrides,) if isinstance(overrides, str) else overrides
+    listed = (overrides,) if isinstance(overrides, str) else (overrides or ())
     for setting in listed:
         if not isinstance(setting, str):
             raise InputError(
@@ -111,7 +111,7 @@ def with_settings(overrides: Overrides, settings: Mapping[str, str]) -> Override
     """Return overrides with further settings behind them, which beat them."""
     if isinstance(overrides, Mapping):
         return {**overrides, **settings}
-    listed = (overrides,) if isinstance(overrides, str) else overrides
+    listed = (overrides,) if isinstance(overrides, str) else (overrides or ())
     return (*listed, *(f"{key}={value}" for key, value in settings.items()))
 
 
@@ -129,6 +129,11 @@ def _flat(table: Mapping[Any, Any], path: tuple[str, ...]) -> Iterator[tuple[str
         else:
             dotted = ".".join(f'"{word}"' if "." in word else word for word in words)
             yield dotted, _plain(value, shortened(dotted), 0)
+
+
+def plain_number(value: object) -> object:
+    """Return a number of numpy's as Python's own, and anything else as it is."""
+    return value.item() if isinstance(value, np.number) else value
 
 
 def _plain(value: object, key: str, depth: int) -> object:

@@ -6,6 +6,8 @@ from typing import Any
 
 from pydantic_core import PydanticCustomError
 
+from treadwell.components import parameter_names
+
 DEEPEST = 8
 LONGEST = 10_000
 
@@ -38,6 +40,24 @@ def check_parameters(value: object, where: tuple[str | int, ...]) -> None:
         raise PydanticCustomError(
             "parameters", "must be a number, a string, a boolean, a list or a table", {"at": where}
         )
+
+
+def check_names(table: Mapping[str, Any], where: tuple[str, ...]) -> None:
+    """Check the keys of a component's table: of what no component reads nobody else does.
+
+    Args:
+        table: the table, as TOML gave it.
+        where: its key below `[navigation]`.
+
+    Raises:
+        PydanticCustomError: with the first key that the component does not have.
+    """
+    names = parameter_names(*where)
+    for key, value in table.items():
+        if key not in names:
+            raise PydanticCustomError("extra_forbidden", "unknown key", {"at": (*where, key)})
+        if isinstance(value, Mapping) and parameter_names(*where, key):
+            check_names(value, (*where, key))
 
 
 def element_names(elements: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -37,7 +37,7 @@ def setting_texts(overrides: Overrides, components: Mapping[str, object]) -> tup
         raise InputError(f"overrides: found {shown(overrides)}; must be a list or a mapping")
     found = [f"{key}={_text(value, key)}" for key, value in _flat(overrides)]
     if not isinstance(overrides, Mapping):
-        found = [str(setting) for setting in overrides]
+        found = [str(setting) for setting in overrides or ()]
     of_slots = {f"navigation.{slot}": value for slot, value in components.items()}
     return (*found, *(f"{key}={_text(value, key)}" for key, value in of_slots.items()))
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from treadwell.errors import InputError
 from treadwell.recording.run_folder import sweep_folder
 from treadwell.scenario.messages import shown
-from treadwell.scenario.overrides import Overrides
+from treadwell.scenario.overrides import Overrides, plain_number
 from treadwell.sweeps.asked import Asked, care
 from treadwell.sweeps.conduct import Progress, conduct
 from treadwell.sweeps.engine import Engine, local_engine
@@ -172,6 +172,7 @@ def _whole(name: str, value: object, least: int) -> int | None:
     """
     if value is None:
         return None
+    value = plain_number(value)
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise InputError(f"{name}: found {shown(value)}; must be a whole number from {least} on")
     return value

@@ -11,7 +11,7 @@ use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyTuple};
+use pyo3::types::{PyList, PyTuple, PyType};
 
 pub(crate) use behaviour::behaviour;
 pub(crate) use localizer::localizer;
@@ -57,11 +57,13 @@ fn check_within(what: &str, values: impl IntoIterator<Item = f64>, most: f64) ->
     }
 }
 
-/// Refuses nothing where a method of a part of the user's has to return `wanted`.
+/// Refuses nothing, an array, or a plain value where a method of a part of the user's has to return `wanted`.
 fn something(answer: &Bound<'_, PyAny>, of: &str, wanted: &str) -> PyResult<()> {
-    if answer.is_none() {
-        let said = format!("{of} must return {wanted}, got None");
-        return Err(PyValueError::new_err(said));
+    let home: Option<String> = answer.get_type().module()?.extract().ok();
+    let plain = matches!(home.as_deref(), Some("builtins" | "numpy"));
+    // A class may have the attributes itself.
+    if plain && !answer.is_instance_of::<PyType>() {
+        return Err(unlike_of(&format!("{of} must return {wanted}"), answer));
     }
     Ok(())
 }
@@ -107,6 +109,9 @@ const MOST_NAMED: usize = 8;
 
 /// Name of a value's type.
 fn kind(found: &Bound<'_, PyAny>) -> String {
+    if found.is_none() {
+        return "None".to_owned();
+    }
     found.get_type().name().map_or_else(
         |_| "something without a type".to_owned(),
         |kind| kind.to_string(),
@@ -130,7 +135,11 @@ fn kinds(found: &Bound<'_, PyAny>) -> String {
 }
 
 /// The error for a value of another type than is wanted: with its type, and that of its elements and its shape if it is an array.
-fn unlike(name: &str, found: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
+pub(crate) fn unlike(name: &str, found: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
+    unlike_of(&format!("{name} must be {wanted}"), found)
+}
+
+fn unlike_of(must: &str, found: &Bound<'_, PyAny>) -> PyErr {
     let text = |key| {
         found
             .getattr(key)
@@ -141,5 +150,5 @@ fn unlike(name: &str, found: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
         (Ok(dtype), Ok(shape)) => format!("{dtype} {shape}"),
         _ => kinds(found),
     };
-    PyValueError::new_err(format!("{name} must be {wanted}, got {is}"))
+    PyValueError::new_err(format!("{must}, got {is}"))
 }

@@ -60,6 +60,19 @@ fn sightings<'py>(
 
 #[pymethods]
 impl PyFloorView {
+    fn __repr__(&self) -> String {
+        let [rows, cols] = shape(&self.0);
+        let cells = self.0.cells.values();
+        let floor = (cells.iter()).filter(|cell| matches!(cell, Surface::Floor(_)));
+        let blocked = (cells.iter()).filter(|cell| matches!(cell, Surface::Obstacle(_)));
+        format!(
+            "<FloorView of {rows} x {cols} cells of {} m: {} floor, {} obstacle>",
+            self.0.lattice.cell_m,
+            floor.count(),
+            blocked.count()
+        )
+    }
+
     /// (2,) m: lower-left corner of cell (0, 0) in the map frame.
     #[getter]
     fn origin(&self) -> (f64, f64) {

@@ -5,15 +5,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use mapping::Update;
-use numpy::{
-    IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods,
-};
-use pyo3::exceptions::PyValueError;
+use numpy::ndarray::ArrayView1;
+use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArrayLike2, PyArrayMethods};
 use pyo3::prelude::*;
 use volume::octree::{Cast, Leaf, Octree, OctreeConfig, Sighting};
 
+use crate::components::unlike;
 use crate::error::{bad_setting, parse, run};
-use crate::world_model::{by_row, rays};
+use crate::world_model::rays;
 
 /// Rows of three metres each, and one number a row.
 pub(crate) type Rows<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
@@ -63,15 +62,14 @@ impl PyOctree {
     fn insert(
         &mut self,
         py: Python<'_>,
-        points: &Bound<'_, PyArray2<f64>>,
+        points: &Bound<'_, PyAny>,
         eye: [f64; 3],
         max_range: f64,
         each_point: bool,
     ) -> PyResult<usize> {
-        let points = points.readonly();
-        let points = triples("points", &points)?;
+        let points = triples("points", points)?;
         if max_range <= 0.0 || max_range.is_nan() {
-            return Err(PyValueError::new_err("max_range must be > 0"));
+            return Err(bad_setting(py, &"max_range must be > 0"));
         }
         let update = if each_point {
             Update::PerPoint
@@ -81,7 +79,7 @@ impl PyOctree {
         let tree = Arc::make_mut(&mut self.tree);
         let started = Instant::now();
         let beyond = run(py, || {
-            let rays: Vec<_> = rays(eye, points, max_range).map(|(_, ray)| ray).collect();
+            let rays: Vec<_> = rays(eye, &points, max_range).map(|(_, ray)| ray).collect();
             tree.insert(eye, &rays, update)
         })?
         .map_err(|error| bad_setting(py, &error))?;
@@ -91,11 +89,10 @@ impl PyOctree {
 
     /// Makes the voxels of points, (n, 3) m, occupied: a map that is told, not seen. Points that are no numbers are left out, and
     /// those beyond the 2^16 voxels along each axis: their number is returned; it is an `InputError` where all are.
-    fn occupy(&mut self, py: Python<'_>, points: &Bound<'_, PyArray2<f64>>) -> PyResult<usize> {
-        let points = points.readonly();
-        let points = triples("points", &points)?;
+    fn occupy(&mut self, py: Python<'_>, points: &Bound<'_, PyAny>) -> PyResult<usize> {
+        let points = triples("points", points)?;
         let tree = Arc::make_mut(&mut self.tree);
-        run(py, || tree.occupy(points))?.map_err(|error| bad_setting(py, &error))
+        run(py, || tree.occupy(&points))?.map_err(|error| bad_setting(py, &error))
     }
 
     /// The occupied leaves: (n, 3) m, their centres, and (n,) m, their sides.
@@ -112,10 +109,9 @@ impl PyOctree {
     fn log_odds<'py>(
         &self,
         py: Python<'py>,
-        points: &Bound<'_, PyArray2<f64>>,
+        points: &Bound<'_, PyAny>,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
-        let points = points.readonly();
-        let points = triples("points", &points)?;
+        let points = triples("points", points)?;
         let at = |point: &[f64; 3]| self.tree.log_odds_at(*point).unwrap_or(f32::NAN);
         Ok(points.iter().map(at).collect::<Vec<_>>().into_pyarray(py))
     }
@@ -127,15 +123,14 @@ impl PyOctree {
     fn cast_rays<'py>(
         &self,
         py: Python<'py>,
-        origins: &Bound<'_, PyArray2<f64>>,
-        directions: &Bound<'_, PyArray2<f64>>,
+        origins: &Bound<'_, PyAny>,
+        directions: &Bound<'_, PyAny>,
         max_range: f64,
         through_unknown: bool,
     ) -> PyResult<Rows<'py>> {
-        let (origins, directions) = (origins.readonly(), directions.readonly());
-        let origins = triples("origins", &origins)?;
-        let directions = triples("directions", &directions)?;
-        must_be_rays(origins, directions, max_range)?;
+        let origins = triples("origins", origins)?;
+        let directions = triples("directions", directions)?;
+        must_be_rays(py, &origins, &directions, max_range)?;
         let (tree, max_range_m) = (&self.tree, max_range);
         let sighting = Sighting {
             max_range_m,
@@ -147,7 +142,7 @@ impl PyOctree {
             Cast::Occupied(end) => (end, distance(end, *origin)),
             Cast::Unknown(_) | Cast::Nothing => ([f64::NAN; 3], f64::NAN),
         };
-        let found = run(py, || origins.iter().zip(directions).map(cast).unzip())?;
+        let found = run(py, || origins.iter().zip(&directions).map(cast).unzip())?;
         rows(py, found)
     }
 
@@ -213,27 +208,32 @@ pub(crate) fn rows(
 
 /// Refuses what makes no rays: as many origins as directions, and a reach.
 pub(crate) fn must_be_rays(
+    py: Python<'_>,
     origins: &[[f64; 3]],
     directions: &[[f64; 3]],
     max_range: f64,
 ) -> PyResult<()> {
     if origins.len() != directions.len() || max_range <= 0.0 || max_range.is_nan() {
-        return Err(PyValueError::new_err(
-            "origins and directions must be as many, max_range > 0",
+        return Err(bad_setting(
+            py,
+            &"origins and directions must be as many, max_range > 0",
         ));
     }
     Ok(())
 }
 
-/// The rows of an (n, 3) array.
-pub(crate) fn triples<'a>(
-    name: &str,
-    array: &'a PyReadonlyArray2<'_, f64>,
-) -> PyResult<&'a [[f64; 3]]> {
-    if array.as_array().ncols() != 3 || !array.is_c_contiguous() {
-        return Err(PyValueError::new_err(format!(
-            "{name} must be (n, 3) and lie row by row in memory"
-        )));
+/// The rows of what numpy makes an (n, 3) array of numbers, of any type and stride.
+pub(crate) fn triples(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; 3]>> {
+    let array: Result<PyArrayLike2<'_, f64, AllowTypeChange>, _> = given.extract();
+    match &array {
+        Ok(array) if array.as_array().ncols() == 3 => {
+            let array = array.as_array();
+            let triple = |row: ArrayView1<'_, f64>| [row[0], row[1], row[2]];
+            Ok(array.rows().into_iter().map(triple).collect())
+        }
+        _ => {
+            let error = unlike(name, given, "numbers (n, 3)");
+            Err(bad_setting(given.py(), &error.value(given.py())))
+        }
     }
-    Ok(by_row(array)?.as_chunks::<3>().0)
 }

@@ -26,6 +26,14 @@ pub(crate) struct PyBodyState(pub(crate) BodyState);
 
 #[pymethods]
 impl PyBodyState {
+    fn __repr__(&self) -> String {
+        let [left, right] = self.0.foot_loads_n;
+        let at_s = 1e-9 * self.0.time_ns as f64;
+        format!(
+            "<BodyState at {at_s:.2} s: {left:.1} N on the left sole, {right:.1} N on the right>"
+        )
+    }
+
     /// Nanoseconds since the start.
     #[getter]
     fn time_ns(&self) -> u64 {
@@ -51,6 +59,18 @@ pub(crate) struct PyPlanes(pub(crate) segmentation::Planes);
 
 #[pymethods]
 impl PyPlanes {
+    fn __repr__(&self) -> String {
+        let (regions, at_s) = (self.0.regions.len(), 1e-9 * self.0.exposure_ns as f64);
+        let ground =
+            (self.0.ground).map_or_else(|| "no ground".to_owned(), |at| format!("ground {at}"));
+        let doubt = if self.0.reliable {
+            ""
+        } else {
+            ", not reliable"
+        };
+        format!("<Planes at {at_s:.2} s: {regions} regions, {ground}{doubt}>")
+    }
+
     /// When the picture was taken, nanoseconds since the start.
     #[getter]
     fn exposure_ns(&self) -> u64 {

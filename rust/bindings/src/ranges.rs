@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use volume::{LANES, Lanes, RangeField, SolidError, SolidVoxels};
 
@@ -32,14 +32,13 @@ impl PyRangeField {
     fn cast<'py>(
         &self,
         py: Python<'py>,
-        origins: &Bound<'_, PyArray2<f64>>,
-        directions: &Bound<'_, PyArray2<f64>>,
+        origins: &Bound<'_, PyAny>,
+        directions: &Bound<'_, PyAny>,
         max_range: f64,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
-        let (origins, directions) = (origins.readonly(), directions.readonly());
-        let origins = triples("origins", &origins)?;
-        let directions = triples("directions", &directions)?;
-        must_be_rays(origins, directions, max_range)?;
+        let origins = triples("origins", origins)?;
+        let directions = triples("directions", directions)?;
+        must_be_rays(py, &origins, &directions, max_range)?;
         let (field, mut ends_m) = (&self.0, vec![0.0; origins.len()]);
         let cast = || {
             for (first, ends_m) in ends_m.chunks_mut(LANES).enumerate() {
@@ -47,8 +46,8 @@ impl PyRangeField {
                 let of = |a: usize, rows: &[[f64; 3]]| {
                     std::array::from_fn::<f64, LANES, _>(|lane| rows[ray(lane)][a])
                 };
-                let from = field.in_voxels(&std::array::from_fn(|a| of(a, origins)));
-                let along = std::array::from_fn(|a| of(a, directions).map(|v| v as f32).into());
+                let from = field.in_voxels(&std::array::from_fn(|a| of(a, &origins)));
+                let along = std::array::from_fn(|a| of(a, &directions).map(|v| v as f32).into());
                 let reach_m = Lanes::splat(max_range as f32);
                 let found_m = field.cast_side_by_side(&from, &along, reach_m).to_array();
                 ends_m.copy_from_slice(&found_m[..ends_m.len()]);

@@ -32,6 +32,12 @@ impl PyGoal {
             height,
         }
     }
+
+    fn __repr__(&self) -> String {
+        let ((x, y), radius) = (self.position, self.radius);
+        let height = (self.height).map_or_else(String::new, |m| format!(", height {m:.3} m"));
+        format!("<Goal at ({x:.2}, {y:.2}) m, radius {radius} m{height}>")
+    }
 }
 
 impl From<&Goal> for PyGoal {
@@ -50,6 +56,14 @@ pub(crate) struct PyScan(pub(crate) sensing::Scan);
 
 #[pymethods]
 impl PyScan {
+    fn __repr__(&self) -> String {
+        let (camera, at_s) = (self.0.camera, 1e-9 * self.0.exposure_ns as f64);
+        format!(
+            "<Scan of {} x {} pixels at {at_s:.2} s>",
+            camera.height, camera.width
+        )
+    }
+
     /// When the picture was taken, nanoseconds since the start.
     #[getter]
     fn exposure_ns(&self) -> u64 {

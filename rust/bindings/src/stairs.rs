@@ -103,6 +103,11 @@ impl PyStaircase {
             stairs: Vec::new(),
         }
     }
+
+    fn __repr__(&self) -> String {
+        let (stairs, frames) = (self.stairs.len(), self.frames);
+        format!("<Staircase of {stairs} stairs, from {frames} frames>")
+    }
 }
 
 impl From<&Staircase> for PyStaircase {

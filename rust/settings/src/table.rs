@@ -135,7 +135,19 @@ fn over_defaults<T: DeserializeOwned + Serialize + Default>(
             "." => String::new(),
             path => format!(".{path}"),
         };
-        refused(&at, error.inner())
+        refused(&at, &in_words(&error.inner().to_string()))
+    })
+}
+
+/// What was expected, in words of who writes settings and not of the code that reads them.
+fn in_words(said: &str) -> String {
+    let (whole, number) = ("expected a whole number", "expected a number");
+    let names = ["usize", "u64", "u32", "u16", "u8", "i64", "i32"];
+    let whole_said = names.iter().fold(said.to_owned(), |said, name| {
+        said.replace(&format!("expected {name}"), whole)
+    });
+    ["f64", "f32"].iter().fold(whole_said, |said, name| {
+        said.replace(&format!("expected {name}"), number)
     })
 }
 

@@ -65,10 +65,7 @@ impl PythonBehaviour {
         check_within("gaze", [pan_rad, down_rad], LARGEST)?;
         let motion = read_motion(&answer)?;
         let outcome: Option<String> = attribute(&answer, (OF, "outcome"), "str or None")?;
-        let outcome = outcome.map(|text| match text.as_str() {
-            "goal_reached" => Outcome::GoalReached,
-            _ => Outcome::Refused(text),
-        });
+        let outcome = outcome.map(read_outcome).transpose()?;
         Ok(Decision {
             command: Command {
                 motion,
@@ -80,6 +77,21 @@ impl PythonBehaviour {
             outcome,
         })
     }
+}
+
+/// How a decision ends the episode: at the goal, or by a refusal in its form.
+fn read_outcome(text: String) -> PyResult<Outcome> {
+    if text == "goal_reached" {
+        return Ok(Outcome::GoalReached);
+    }
+    let word = text.split_once(": ").map_or("", |(word, _)| word);
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    if word.is_empty() || !word.chars().all(is_word) {
+        return Err(PyValueError::new_err(format!(
+            "{OF}.outcome must be None, goal_reached, or why it refuses, as `word: sentence`; got {text:?}"
+        )));
+    }
+    Ok(Outcome::Refused(text))
 }
 
 /// What the feet shall do: walk with a velocity, take listed steps, or stand.

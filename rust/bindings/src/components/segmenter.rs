@@ -64,11 +64,18 @@ fn read_segmentation(answer: &Bound<'_, PyAny>, scan: &Scan, planes: &mut Planes
             "labels must be at most {most}, got {label}"
         )));
     }
+    if ground.is_some_and(|ground| ground >= heights.len()) {
+        return Err(PyValueError::new_err(format!(
+            "ground must be one of the {} regions that floor_heights has, counted from 0, or None; got {}",
+            heights.len(),
+            ground.unwrap_or_default()
+        )));
+    }
     planes.robot_from_camera = rigid(&pose)?;
     planes.exposure_ns = scan.exposure_ns;
     // Each point lies on its pixel's line of sight: models see through what lies before it.
     planes.camera = Some(scan.camera);
-    planes.ground = ground.filter(|&ground| ground < heights.len());
+    planes.ground = ground;
     planes.reliable = attribute(answer, (OF, "reliable"), "bool")?;
     for (slot, label) in planes.labels.iter_mut().zip(labels) {
         *slot = *label;
