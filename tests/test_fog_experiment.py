@@ -77,7 +77,7 @@ def test_cells_of_the_course_and_of_the_levels_stand_beside_what_is_wanted() -> 
     assert rows["the same of cells that lie in an obstacle whole, %"] == ("0", "5.00", "5.00")
     assert rows["floor at the wrong height, %"][1:] == ("2.00", "2.00")
     rows = rows_of(fog_tables, {cases.levels("fog"): runs}, "Three levels")
-    assert rows[cases.levels("fog")] == ("97.00", "100.00", "96.67", "1.50", "1.50", "not tried")
+    assert rows[cases.levels("fog")] == ("97.00", "100.00", "96.67", "1.50", "1.50", "-")
 
 
 def test_of_what_was_not_run_there_is_no_table() -> None:

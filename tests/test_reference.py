@@ -16,7 +16,7 @@ from treadwell.errors import InputError
 from treadwell.reference.pages import pages
 from treadwell.reference.parameters import all_tables, find_parameters
 from treadwell.reference.schemas import SCHEMAS, scenario_schema
-from treadwell.reference.words import allowed, kind, shown
+from treadwell.reference.words import allowed, escaped, kind, shown
 from treadwell.robot.load import load_robot, robot_names
 from treadwell.scenario.model import Scenario
 
@@ -137,3 +137,13 @@ def test_a_schema_in_words() -> None:
     assert allowed({"enum": ["a", "b"]}) == "`a`, `b`"
     assert shown(None) == ""
     assert shown([0.5, True]) == "[0.5, true]"
+
+
+def test_the_star_of_a_search_is_escaped_and_code_and_emphasis_stay() -> None:
+    assert escaped("A*, D*'s `A*` and **A**") == "A\\*, D\\*'s `A*` and **A**"
+    assert escaped(escaped("ARA*: A*")) == escaped("ARA*: A*")
+
+
+def test_the_page_of_scenarios_names_the_keys_that_are_needed() -> None:
+    about = pages()["scenario.md"].splitlines()[4]
+    assert re.findall("`(.*?)`", about) == scenario_schema()["required"]

@@ -4,6 +4,7 @@
 """
 
 import json
+import re
 from pathlib import Path
 
 import links
@@ -47,6 +48,33 @@ def test_a_link_that_leads_nowhere_is_found(tmp_path: Path) -> None:
         "index.html: other.html#gone leads nowhere",
         "index.html: no.png leads nowhere",
     ]
+
+
+CODE = re.compile(r"^```.*?^ *```$|^ {4,}[^-*\s].*?$|`[^`]*`", re.DOTALL | re.MULTILINE)
+EMPHASIS = re.compile(r"(?<![\w*])(\*\*?)(?=[^\s*])(?:[^*\n]|\n(?!\s*\n))*?(?<=[^\s*])\1(?![\w*])")
+
+
+def loose_stars(page: str) -> list[str]:
+    """The lines with a star that is not escaped, and neither code nor emphasis nor an item's."""
+    text = EMPHASIS.sub("", CODE.sub("code", page.replace("\\*", "")))
+    return [line for line in text.splitlines() if "*" in re.sub(r"^\s*\* ", "", line)]
+
+
+def test_a_star_that_would_begin_or_end_emphasis_is_found() -> None:
+    assert loose_stars("by A* and\nfor D*'s sake") == ["by A* and", "for D*'s sake"]
+    assert loose_stars("a fresh A*, D* Lite") == ["a fresh A*, D* Lite"]
+    assert not loose_stars("* A\\*, *so*, **so**, **not `a * b`**, (*it*), *over\ntwo lines*.")
+    assert not loose_stars("```\n2 * 3\n```\n")
+
+
+def test_no_page_has_a_star_that_markdown_takes_for_emphasis() -> None:
+    """The site's Markdown takes the stars of `A*, D*` for a pair; GitHub's does not."""
+    texts = {str(page): (site.ROOT / page).read_text() for page in site.pages()}
+    texts |= site.interface_pages(rust=None)
+    readmes = [p for f in ("rust", "models") for p in (site.ROOT / f).glob("*/README.md")]
+    texts |= {str(page.relative_to(site.ROOT)): page.read_text() for page in readmes}
+    found = {name: lines for name, text in texts.items() if (lines := loose_stars(text))}
+    assert not found
 
 
 @pytest.mark.docs

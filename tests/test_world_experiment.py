@@ -105,7 +105,7 @@ def test_a_run_is_right_that_ends_rightly_without_fall_or_touch() -> None:
     assert TABLE.is_right(run("goal_reached"))
     assert not TABLE.is_right(run("goal_reached", None, "head"))
     assert not TABLE.is_right(run("fell", "fell: tilted", falls=1))
-    assert not TABLE.is_right(run("stuck", "stuck: the robot came away from its place no more"))
+    assert not TABLE.is_right(run("stuck", "stuck: the robot stayed in one place for too long"))
     assert CABLE.is_right(run("goal_reached", None, "left_foot"))
 
 

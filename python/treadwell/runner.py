@@ -109,8 +109,10 @@ def run(  # noqa: PLR0913 - one an option
         view: show the physics in a window; needs the extra `view`.
         progress: is told how the run gets on.
         user_code: False: a scenario that names a Python class is refused.
-        components: objects of the user's by slot, or their classes, as in `planner=MyPlanner`: one
-            is made with the scenario's `[navigation.MyPlanner]` for its parameters.
+        components: the part for a slot: a name as a scenario has it, as in `planner="voronoi"`; a
+            class of yours, as in `planner=MyPlanner`, of which an object is made with the
+            scenario's `[navigation.MyPlanner]` for its parameters; or an object. What each must
+            have: `treadwell.protocols`.
 
     Raises:
         InputError: anything that the user gave is bad; nothing was written.

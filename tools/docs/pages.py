@@ -6,6 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from treadwell.reference.words import escaped
+
 FOLDER = Path(__file__).resolve().parents[2] / "docs" / "results"
 INTRODUCTION = """# Results
 
@@ -25,6 +27,7 @@ wrong, is told in [docs/history](../history/README.md).
 
 These pages are generated: `python tools/docs/results.py render` makes them from the JSON files
 beside them, and measuring commands write those ([how](../../CONTRIBUTING.md#measuring)).
+Commands other than `treadwell`, and files in `benches`, `tests` and `rust`, are of a clone.
 """
 
 Text = Annotated[str, Field(min_length=1)]
@@ -132,14 +135,15 @@ def markdown(page: Subject) -> str:
         lines += ["", f"## {table.title}", "", _source(table), "", *_grid(table)]
     if page.pictures:
         lines += ["", *(f"![{picture.shows}]({picture.file})" for picture in page.pictures)]
-    return "\n".join(lines) + "\n"
+    return escaped("\n".join(lines) + "\n")
 
 
 def index(folder: Path = FOLDER) -> str:
     """Return the page that leads to all others."""
     pages = [load(subject, folder) for subject in subjects(folder)]
     rows = [f"| [{page.title}]({page.subject}.md) | {_cell(page.about)} |" for page in pages]
-    return INTRODUCTION + "\n".join(["", "| subject | what it holds |", "| --- | --- |", *rows, ""])
+    lines = ["", "| subject | what it holds |", "| --- | --- |", *rows, ""]
+    return INTRODUCTION + escaped("\n".join(lines))
 
 
 def _source(table: Table) -> str:

@@ -163,6 +163,7 @@ def _first_paragraph(source: str) -> str:
     """Return what a crate says of itself first, without rustdoc's links."""
     lines = itertools.takewhile(lambda line: line.startswith("//! "), source.splitlines())
     said = " ".join(line.removeprefix("//!").strip() for line in lines)
+    said = re.sub(r"(?<=[A-Z])\*", r"\\*", said)  # of A*: it is no emphasis
     return re.sub(r"\[(`[^`]+`)\](?:\([^)]*\))?", r"\1", said).replace("|", "\\|")
 
 

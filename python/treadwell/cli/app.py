@@ -220,7 +220,7 @@ def experiment(  # noqa: PLR0913 - one an option
 
 @app.command(
     short_help="Time the core on a fixed workload, and an episode.",
-    epilog="Example: treadwell bench occupancy --frames frames/f320.bin",
+    epilog="Example: treadwell bench occupancy --frames 20",
 )
 def bench(
     names: Annotated[

@@ -26,7 +26,7 @@ def three_levels(results: Results) -> Table:
         "Three levels and two obstacles with rough tops (Fig. 3)",
         (*_COLUMNS, THE_PAPER),
         tuple(
-            (*_row(name, results[name]), paper.get(name, "not tried"))
+            (*_row(name, results[name]), paper.get(name, NOTHING))
             for name in names
             if results.get(name)
         ),

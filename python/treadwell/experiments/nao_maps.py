@@ -77,7 +77,7 @@ def visitors(results: Results) -> Table:
             "seen",
             "new way after, s",
             "latest",
-            "around all of it after, s",
+            "way clear of it after, s",
             "latest",
             "new ways",
         ),
@@ -85,9 +85,9 @@ def visitors(results: Results) -> Table:
         (
             "In the way: the path led through the visitor, by half the feet's width, at any time. "
             "New way: from the first picture with 20 points or more on it, if it was in the way by "
-            "then, until the first way that is planned anew; around: until the path leads by the "
-            "whole visitor, of which the robot has seen a part. New ways: median of all in a run. "
-            "The paper: immediately, collision-free, goal reached.",
+            "then, until the first way that is planned anew. Clear of it: until the path is clear "
+            "of the whole visitor, of which the robot sees only a part. New ways: median of all in "
+            "a run. The paper: immediately, collision-free, goal reached.",
         ),
     )
 

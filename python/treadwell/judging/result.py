@@ -161,7 +161,7 @@ class Result(Shown, Table):
     outcome: Outcome
     """How it ended."""
     reason: str | None = None
-    """Why, as `word: sentence`, where it was refused or ended by an error."""
+    """Why, as `word: sentence`; none where the goal was reached."""
     passed: bool = False
     """Whether it met the scenario's expectations."""
     failures: list[str] = []

@@ -59,7 +59,7 @@ class Referee:
         if self._declared is not None:
             return self._check(data, time_s, *self._declared)
         if judge.stuck:
-            return Verdict("stuck", "stuck: the robot came away from its place no more")
+            return Verdict("stuck", "stuck: the robot stayed in one place for too long")
         if time_s >= self._time_limit - 1e-9:
             return Verdict("timed_out", f"timed_out: {self._time_limit:g} s were over")
         return None

@@ -37,7 +37,8 @@ class Lean:
     @property
     def said(self) -> str:
         """How much it leans, in words."""
-        return f"what may be the floor leans by {math.degrees(self.angle):.1f} degrees"
+        degrees = math.degrees(self.angle)
+        return f"the surface that looks like the floor leans by {degrees:.1f} degrees"
 
 
 class Leaning:
@@ -78,7 +79,7 @@ class Leaning:
         if lean is None:
             return []
         up = ",".join(f"{part:.4f}" for part in map_from_world.T @ lean.up)
-        return [f"{lean.said} in the map; where it is level in truth: --set 'map.up=[{up}]'"]
+        return [f"{lean.said} in the map; if the real floor is level, add --set 'map.up=[{up}]'"]
 
     def of_poses(self, data: MapTable) -> tuple[str, ...]:
         """Return a note where the floor leans, for those who make the poses.
@@ -90,7 +91,7 @@ class Leaning:
         if lean is None:
             return ()
         up = ", ".join(f"{part:.4f}" for part in lean.up)
-        return (f"{lean.said}; where it is level in truth, turn the poses so that ({up}) is up",)
+        return (f"{lean.said}; if the real floor is level, turn the poses so that ({up}) is up",)
 
     def _too_much(self, data: MapTable) -> Lean | None:
         lean = self.found()

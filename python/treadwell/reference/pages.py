@@ -6,13 +6,13 @@ from typing import Any, Final
 from treadwell.components import COMPONENTS, SOURCES, TABLES
 from treadwell.reference.parameters import ParameterTable, all_tables
 from treadwell.reference.schemas import SCHEMAS
-from treadwell.reference.words import allowed, kind, shown
+from treadwell.reference.words import allowed, escaped, kind, shown
 
 MADE: Final = "<!-- Made from the code by `python tools/docs/reference.py write`. -->\n"
 _FILES: Final = {
     "scenario": (
         "A scenario file",
-        "Every key of a scenario; all but the first four may be left out.",
+        "Every key of a scenario. Needed are {needed}; all others may be left out.",
     ),
     "robot": ("robot.toml", "Every key of a robot's `robot.toml`: what its MJCF cannot say."),
     "result": ("result.json", "Every key of a run's `result.json`."),
@@ -35,7 +35,7 @@ def pages() -> dict[str, str]:
     made = {"README.md": _index(), "components.md": _components()}
     made |= {f"{name}.md": _file(name) for name in SCHEMAS}
     made |= {f"parameters/{table.name}.md": _parameters(table) for table in all_tables()}
-    return made
+    return {name: escaped(text) for name, text in made.items()}
 
 
 def _index() -> str:
@@ -86,7 +86,9 @@ def _parameters(table: ParameterTable) -> str:
 def _file(name: str) -> str:
     title, about = _FILES[name]
     schema = SCHEMAS[name]()
-    lines = [MADE, f"# {title}", "", about, ""]
+    *first, last = (f"`{key}`" for key in schema["required"])
+    needed = f"{', '.join(first)} and {last}"
+    lines = [MADE, f"# {title}", "", about.format(needed=needed), ""]
     lines += _keys(schema)
     for model, described in _models(schema):
         lines += [f"## {model}", "", " ".join(described.get("description", "").split()), ""]

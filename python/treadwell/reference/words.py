@@ -1,6 +1,7 @@
 """What a JSON schema says, in words."""
 
 import json
+import re
 from collections.abc import Mapping
 from typing import Any, Final
 
@@ -20,6 +21,13 @@ _LIMITS: Final = (
     ("minLength", "letters >="),
     ("maxLength", "letters <="),
 )
+
+
+def escaped(page: str) -> str:
+    """Return a page on which the star of A*, D* and their like, outside of code, is no emphasis."""
+    parts = re.split(r"(`[^`\n]*`)", page)
+    parts[::2] = [re.sub(r"(?<=[A-Z])\*(?!\*)", r"\\*", part) for part in parts[::2]]
+    return "".join(parts)
 
 
 def shown(value: object) -> str:

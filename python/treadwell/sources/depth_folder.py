@@ -105,8 +105,8 @@ def open_depth_folder(folder: Path, camera: Path | None, pose_within: float) -> 
     images = timed_files(folder / DEPTH, SUFFIXES, unnamed)
     if not images:
         raise InputError(
-            f"{folder / DEPTH}: holds not one depth image: .png of 16 bits, or .npy, "
-            "whose name is its time in seconds, like 12.5.png"
+            f"{folder / DEPTH}: holds no depth image: wanted are .png of 16 bits, or .npy, "
+            "each named by its time in seconds, like 12.5.png"
         )
     colours = timed_files(folder / COLOUR, _PICTURES) if (folder / COLOUR).is_dir() else []
     return DepthFolder(
