@@ -9,7 +9,12 @@ from robot_builders import foreign_robot, qrio_copy
 
 from treadwell.errors import InputError
 from treadwell.robot.load import Robot, load_robot
-from treadwell.robot.model_gaps import GEAR_SOLREF, straighten_ties
+from treadwell.robot.model_gaps import (
+    GEAR_SOLREF,
+    SOLE_SOLREF,
+    prepare_feet,
+    straighten_ties,
+)
 
 
 @pytest.fixture(scope="module")
@@ -156,3 +161,47 @@ def test_a_gear_is_rigid_where_its_model_does_not_say_how_it_gives() -> None:
 
     assert solved("") == GEAR_SOLREF[0]
     assert solved('solref="0.03 1"') == 0.03
+
+
+_FEET = """<mujoco><option integrator="implicitfast"/><worldbody>
+    <geom name="floor" type="plane" size="1 1 1" friction="0.7 0.005 0.0001"/>
+    <body name="shank" pos="0 0 0.499"><freejoint/><geom type="sphere" size="0.05" mass="30"/>
+      <body name="plain" pos="0.3 0 -0.47">
+        <geom name="plain" type="box" size="0.1 0.1 0.03"/>
+      </body>
+      <body name="said" pos="-0.3 0 -0.47">
+        <geom name="said" type="box" size="0.1 0.1 0.03" solref="0.004 1"/>
+      </body></body></worldbody></mujoco>"""
+
+
+def test_soles_are_as_hard_as_those_of_the_testbed_where_the_model_does_not_say_how_they_give() -> (
+    None
+):
+    spec = mujoco.MjSpec.from_string(_FEET)
+    before = spec.compile()
+    prepare_feet(spec, {"plain", "said"})
+    model = spec.compile()
+    assert model.geom("plain").solref.tolist() == list(SOLE_SOLREF)
+    assert load_robot("qrio").nominal.geom("left_sole").solref.tolist() == list(SOLE_SOLREF)
+    for field in ("solref", "solimp", "solmix"):
+        for geom in ("said", "floor"):
+            ours, theirs = getattr(model.geom(geom), field), getattr(before.geom(geom), field)
+            assert ours.tolist() == theirs.tolist()
+    # What slips, and on which side that is decided, stays as it is.
+    for field in ("friction", "condim", "priority"):
+        assert np.array_equal(getattr(model, f"geom_{field}"), getattr(before, f"geom_{field}"))
+
+
+def test_the_ground_gives_as_a_hard_sole_does_and_not_half_as_much_again() -> None:
+    spec = mujoco.MjSpec.from_string(_FEET)
+    prepare_feet(spec, {"plain"})
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    solrefs = [
+        contact.solref[0]
+        for contact in data.contact
+        if model.geom("plain").id in (contact.geom1, contact.geom2)
+    ]
+    assert solrefs
+    assert solrefs == pytest.approx([SOLE_SOLREF[0]] * len(solrefs), rel=0.01)

@@ -17,7 +17,7 @@ from treadwell.robot.camera_added import add_camera
 from treadwell.robot.file import LegTable, RobotFile
 from treadwell.robot.keyframes import STAND
 from treadwell.robot.loops import ties_of
-from treadwell.robot.model_gaps import fill_gaps, let_feet_touch, straighten_ties
+from treadwell.robot.model_gaps import fill_gaps, prepare_feet, straighten_ties
 from treadwell.robot.motors_found import SAME_FOR_ALL
 from treadwell.robot.surfaces import SEEN_GROUPS
 from treadwell.robot.turned_links import turn_foot
@@ -54,7 +54,7 @@ def complete(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
     _add_imu(spec, file, toml)
     for leg in legs.values():
         _add_forces(spec, leg)
-    let_feet_touch(spec, {leg.sole.link for leg in legs.values()})
+    prepare_feet(spec, {leg.sole.link for leg in legs.values()})
     _show_shapes(spec)
     # The last: for it, the rest is compiled.
     _add_stand(spec, file, stand, toml)

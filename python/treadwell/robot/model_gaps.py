@@ -12,6 +12,10 @@ BASE = "base"
 GEAR_SOLREF = (0.004, 1.0)
 GEAR_SOLIMP = (0.999, 0.9999, 0.0001, 0.5, 2.0)
 """How hard the joints of a gear hold together, as MuJoCo's `solref` and `solimp` have it."""
+SOLE_SOLREF = (0.01, 1.0)
+SOLE_SOLMIX = 1e3
+"""How hard a sole is, as those of `qrio` are, and by how much it counts for that against the
+ground. Friction, and what decides it, stay as the model and the scenario say."""
 
 
 def fill_gaps(spec: mujoco.MjSpec) -> None:
@@ -115,18 +119,44 @@ def _explained(model: mujoco.MjModel, loops: set[int]) -> list[int]:
     return found
 
 
-def let_feet_touch(spec: mujoco.MjSpec, links: set[str]) -> None:
-    """Let the shapes of feet touch the ground where the model says by pairs alone what touches.
+def prepare_feet(spec: mujoco.MjSpec, links: set[str]) -> None:
+    """Let feet touch the ground, and be as hard as those of the testbed's robots.
 
     Args:
         spec: changed.
         links: names of the feet's links.
     """
+    _let_feet_touch(spec, links)
+    _harden_soles(spec, links)
+
+
+def _harden_soles(spec: mujoco.MjSpec, links: set[str]) -> None:
+    """Give soles the hardness of the testbed's where the model does not say how they give.
+
+    With MuJoCo's own default a foot that is light for what it carries sinks into an edge by 5 mm,
+    and the robot on it leans over that edge.
+    """
+    plain = mujoco.MjSpec().worldbody.add_geom()
+    for name in links:
+        body = spec.body(name)
+        for geom in _with_children(body) if body is not None else []:
+            says = np.any(geom.solref != plain.solref) or np.any(geom.solimp != plain.solimp)
+            if (geom.contype or geom.conaffinity) and not says:
+                geom.solref, geom.solmix = SOLE_SOLREF, SOLE_SOLMIX
+
+
+def _with_children(body: mujoco.MjsBody) -> list[mujoco.MjsGeom]:
+    """Return the shapes of a link and of those that hang on it."""
+    return list(body.geoms) + [geom for child in body.bodies for geom in child.geoms]
+
+
+def _let_feet_touch(spec: mujoco.MjSpec, links: set[str]) -> None:
+    """Let the shapes of feet touch the ground where the model says by pairs alone what touches."""
     for name in links:
         body = spec.body(name)
         if body is None:
             continue
-        geoms = list(body.geoms) + [geom for child in body.bodies for geom in child.geoms]
+        geoms = _with_children(body)
         if any(geom.contype or geom.conaffinity for geom in geoms):
             continue
         hidden = [geom for geom in geoms if geom.group >= SEEN_GROUPS]

@@ -7,6 +7,7 @@
 //! angles.
 
 mod advance;
+mod ankle_bend;
 mod ankles;
 mod arms;
 pub mod balance;

@@ -9,13 +9,20 @@ use robot::{Body, Side};
 use crate::config::GaitConfig;
 
 impl GaitConfig {
-    /// Sets what `[gait]` does not say: a quicker step, after which an error has grown as much less as the sole is narrower; a margin
-    /// and a side step that are the same share of the sole; a speed of the centre of mass in which a foot that lands turned is no jump,
-    /// for half a sole is all that holds what such a jump asks for; a foot that goes down again as soon as it hangs; the weight further
-    /// in, but less so in careful steps, in which a foot carries for longer than a fall to either side takes; and feet nearer to each
-    /// other, for what a step does wrong goes with how far the weight sways, and with how far a leg is thrown aside. `omega`: of the
-    /// pendulum, 1/s.
-    pub(crate) fn fit_soles(&mut self, body: &Body, said: &serde_json::Value, omega: f64) {
+    /// Sets what `[gait]` does not say: a quicker step, after which an error has grown as much less as the sole is narrower; the same of
+    /// the shift of the weight between careful steps, where an ankle comes to its end meanwhile and its foot bears on an edge alone; a
+    /// margin and a side step that are the same share of the sole; a speed of the centre of mass in which a foot that lands turned is no
+    /// jump, for half a sole is all that holds what such a jump asks for; a foot that goes down again as soon as it hangs; the weight
+    /// further in, but less so in careful steps, in which a foot carries for longer than a fall to either side takes; and feet nearer to
+    /// each other, for what a step does wrong goes with how far the weight sways, and with how far a leg is thrown aside. `omega`: of the
+    /// pendulum, 1/s; `toes_up_rad`: how much further than in the upright stance the ankles bend.
+    pub(crate) fn fit_soles(
+        &mut self,
+        body: &Body,
+        said: &serde_json::Value,
+        omega: f64,
+        toes_up_rad: f64,
+    ) {
         let description = body.description();
         let width_m = Side::BOTH
             .map(|side| description.legs.get(side).sole.width)
@@ -34,6 +41,11 @@ impl GaitConfig {
                 self.double_support *= step_s / self.step_time;
             }
             self.step_time = step_s;
+        }
+        if toes_up_rad < self.tuning.sole_fit.short_ankle && !is_said("climb_double_support") {
+            let quickest_s = self.tuning.sole_fit.quickest_shift * self.climb_double_support;
+            let shift_s = self.climb_double_support + libm::log(share) / omega;
+            self.climb_double_support = shift_s.max(quickest_s);
         }
         if !is_said("sole_margin") {
             self.sole_margin *= share;
@@ -75,7 +87,18 @@ mod tests {
 
     /// The gait of a biped twice as large whose soles are so wide, with what its file says of the gait.
     fn gait(width_m: f64, said: serde_json::Value) -> GaitConfig {
+        gait_with_ankles(width_m, 1.0, said)
+    }
+
+    /// The gait of such a biped whose ankles bend so much further than in the upright stance.
+    fn gait_with_ankles(width_m: f64, toes_up_rad: f64, said: serde_json::Value) -> GaitConfig {
         let mut body = description();
+        for name in ["left_ankle_pitch", "right_ankle_pitch"] {
+            let at = body.joints.iter().position(|joint| joint == name).unwrap();
+            let least_rad = body.stand[at] - toes_up_rad;
+            let mut joints = body.links.iter_mut().filter_map(|link| link.joint.as_mut());
+            joints.find(|joint| joint.name == name).unwrap().range[0] = least_rad;
+        }
         body.scale = 2.0;
         for sole in [&mut body.legs.left.sole, &mut body.legs.right.sole] {
             sole.width = width_m;
@@ -91,6 +114,7 @@ mod tests {
         assert_eq!(wide, scaled);
         let narrow = gait(0.1, nothing);
         assert!(narrow.step_time < scaled.step_time);
+        assert_eq!(narrow.climb_double_support, scaled.climb_double_support);
         assert!(narrow.sole_margin < scaled.sole_margin);
         assert!(narrow.support_inward > scaled.support_inward);
         assert!(narrow.max_sideways < scaled.max_sideways);
@@ -114,14 +138,28 @@ mod tests {
     }
 
     #[test]
+    fn in_a_shift_between_careful_steps_an_error_grows_as_much_less_as_the_sole_is_narrower() {
+        let short = |width_m| gait_with_ankles(width_m, 0.3, serde_json::Value::Null);
+        let (scaled, narrow) = (short(0.15), short(0.12));
+        let grown = |gait: &GaitConfig, omega: f64| libm::exp(omega * gait.climb_double_support);
+        // By the same pendulum as the step: what the one is quicker by the other is, too.
+        let omega = libm::log(0.8) / (narrow.step_time - scaled.step_time);
+        assert!((grown(&narrow, omega) / grown(&scaled, omega) - 0.8).abs() < 1e-9);
+        let narrowest = short(0.01);
+        let share = narrowest.climb_double_support / scaled.climb_double_support;
+        assert!((share - narrowest.tuning.sole_fit.quickest_shift).abs() < 1e-12);
+    }
+
+    #[test]
     fn what_the_file_says_stays() {
         let said = serde_json::json!({"step_time": 0.7, "support_inward": 0.0, "sole_margin": 0.02,
-                "max_sideways": 0.1, "stance_width": 0.2});
+                "max_sideways": 0.1, "stance_width": 0.2, "climb_double_support": 0.4});
         let narrow = gait(0.1, said);
         assert_eq!(
             (narrow.step_time, narrow.support_inward, narrow.sole_margin),
             (0.7, 0.0, 0.02)
         );
         assert_eq!((narrow.max_sideways, narrow.stance_width), (0.1, 0.2));
+        assert_eq!(narrow.climb_double_support, 0.4);
     }
 }

@@ -6,6 +6,7 @@ use robot::{Body, LinkPoses, Side};
 use serde::Deserialize;
 use settings::{Table, TableDescription, overlay};
 
+use crate::ankle_bend::toes_up_rad;
 use crate::config::GaitConfig;
 use crate::error::WalkError;
 use crate::leg::LegSolver;
@@ -77,7 +78,9 @@ impl GaitConfig {
         if table.get("hip_height").is_none() {
             config.hip_height = stance.hip_height_m;
         }
-        config.fit_soles(body, table, (GRAVITY_MPS2 / stance.com.z).sqrt());
+        let toes_up_rad = toes_up_rad(body, &stance.rest, &config.tuning.leg)?;
+        let omega = (GRAVITY_MPS2 / stance.com.z).sqrt();
+        config.fit_soles(body, table, omega, toes_up_rad);
         config.check()?;
         Ok((config, stance))
     }

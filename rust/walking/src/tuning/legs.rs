@@ -41,6 +41,11 @@ settings! {
         width: f64 = 0.075, "m", above_to(0.0, 10.0);
         /// Shortest time of a step, as a share of what the robot's size alone makes it.
         quickest: f64 = 0.6, "1", above_to(0.0, 1.0);
+        /// An ankle that turns the toes up by less than this beyond the upright stance comes to its end while the weight goes from one level
+        /// to another: then that is quicker on narrow soles.
+        short_ankle: f64 = 0.5, "rad", within(0.0, 3.2);
+        /// Shortest time on both feet between two careful steps then, as a share of what the robot's size alone makes it.
+        quickest_shift: f64 = 0.35, "1", above_to(0.0, 1.0);
         /// How far the weight goes inwards, as a share of what half a sole lacks.
         inward: f64 = 0.25, "1", SHARE;
         /// How far in the weight goes at most in careful steps, as a share of half a sole.
