@@ -17,6 +17,7 @@ from treadwell.robot.reach import Rise, what_ends
 from treadwell.robot.report import report_on
 from treadwell.robot.template import write_template
 
+BALL = '<geom type="sphere" size="0.03"/>'
 TABLES = ("robot", "body", "legs", "camera", "motors")
 
 
@@ -77,10 +78,12 @@ def test_legs_without_names_are_no_legs_and_each_joint_of_them_has_its_line(tmp_
 def test_the_title_above_what_is_wrong_with_legs_says_what_it_is(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    four = robot_folder(tmp_path, biped(("pitch", "knee", "pitch", "roll")), "four")
-    execute(["robot", "check", str(four)])
+    balls = robot_folder(tmp_path, biped(SIX, BALL), "balls")
+    execute(["robot", "check", str(balls)])
     shown = capsys.readouterr().out
     assert "no two legs to walk on" in shown
+    (fault,) = [line for line in report_on(balls)["leg_faults"] if "the left leg" in line]
+    assert fault in " ".join(shown.split())
     assert "mirror" not in shown
     unlike = leg("left", SIX, BOX_FOOT) + leg("right", SIX, BOX_FOOT).replace("-0.7 0.7", "-1 0.2")
     execute(["robot", "check", str(robot_folder(tmp_path, biped(SIX, legs=unlike), "askew"))])
