@@ -85,6 +85,21 @@ def test_a_word_of_a_list_that_is_misspelt_has_the_nearest(
         assert "Value error" not in said
 
 
+def test_the_nearest_stands_before_a_list_that_fills_the_screen(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    for arguments, begins in (
+        (["run", "slalon"], "slalon: no such file or scenario; did you mean 'slalom'? scenarios: "),
+        (
+            ["list", "parameters", "foog"],
+            "NAME: there are no parameters of 'foog'; did you mean 'fog'? allowed are ",
+        ),
+        (["run", "qqqqqq"], "qqqqqq: no such file or scenario; scenarios: "),
+    ):
+        assert execute(arguments) == 2
+        assert capsys.readouterr().err.startswith(f"error: {begins}")
+
+
 def test_lists_with_papers_say_which(capsys: pytest.CaptureFixture[str]) -> None:
     assert execute(["list", "components"]) == 0
     captured = capsys.readouterr()
@@ -303,6 +318,18 @@ def test_progress_without_a_terminal_writes_a_line_at_times_and_changes(
     assert len(lines) == 3  # at 0 s, where the state changes at 3 s, and at 5 s
     assert all(text.startswith("slalom") for text in lines)
     assert "search" in lines[1]
+
+
+def test_progress_lines_are_aligned_whatever_the_state_is_called(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    stream = io.StringIO()
+    monkeypatch.setattr(sys, "stderr", stream)
+    with ProgressLine("slalom") as progress:
+        for time_s, state in enumerate(("look_around", "walk", "a_state_of_the_users", "walk")):
+            progress.update(time_s, state, 2.0, 8.0)
+    ends = [text.index(" m to the goal") for text in stream.getvalue().splitlines()]
+    assert ends[0] == ends[1] < ends[2] == ends[3]
 
 
 def test_progress_on_a_terminal_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -160,11 +160,37 @@ def test_pairs_that_could_never_have_shown_a_difference_are_called_too_few() -> 
     assert 2.0 ** (1 - time["pairs_least"]) < limit <= 2.0 ** (2 - time["pairs_least"])
     assert time["pairs_for_power"] >= time["pairs_least"]
     table = comparison_tables(compared([first, slower]))[-1]
-    needed = f"{time['pairs_least']} at least, about {time['pairs_for_power']}"
-    assert table.rows[0][-2:] == (TOO_FEW, needed)
+    # A difference as clear as this takes no more than the least, which is said once.
+    assert time["pairs_for_power"] == time["pairs_least"]
+    assert table.rows[0][-2:] == (TOO_FEW, f"{time['pairs_least']} at least")
     told = " ".join(table.notes)
     assert f"Too few pairs: 3 cannot show a difference beside {tests - 1} other tests" in told
-    assert "in 80 % of cases" in told
+    assert "in 80 % of cases" not in told
+
+
+def test_more_pairs_than_the_least_are_told_beside_it_and_what_about_means() -> None:
+    first = side("a", *(row(i) for i in range(4)))
+    steps = (9.0, -3.0, 5.0, -2.0)
+    other = side("b", *(row(i, simulated_seconds=30.0 + i + s) for i, s in enumerate(steps)))
+    time = test_of(differences([first, other]), "time")
+    table = comparison_tables(compared([first, other]))[-1]
+    assert time["pairs_for_power"] > time["pairs_least"]
+    needed = f"{time['pairs_least']} at least, about {time['pairs_for_power']}"
+    assert table.rows[0][-2:] == (TOO_FEW, needed)
+    assert "in 80 % of cases" in " ".join(table.notes)
+
+
+def test_a_median_and_the_mean_of_differences_are_each_called_what_they_are() -> None:
+    """A time of which the median stays and the mean does not: two numbers that do not fit."""
+    first = side("a", *(row(i, simulated_seconds=30.0) for i in range(9)))
+    slower = side("b", *(row(i, simulated_seconds=30.0 if i < 5 else 60.0) for i in range(9)))
+    figures, against = comparison_tables(compared([first, slower]))
+    at = figures.header.index("time s, median")
+    assert [line[at] for line in figures.rows] == ["30.0", "30.0"]
+    assert against.rows[0][against.header.index("mean difference")] == "+13.3"
+    assert "collisions" in figures.header
+    assert "neither a share nor called a median is a mean" in figures.notes[0]
+    assert "The mean is of these pairs alone" in against.notes[0]
 
 
 def test_as_many_pairs_as_it_takes_show_it_and_one_less_never_does() -> None:

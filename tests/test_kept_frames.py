@@ -78,6 +78,10 @@ def test_without_frames_and_where_nothing_can_be_written_it_is_said(tmp_path: Pa
         with pytest.raises(InputError, match="none of 1 frames was used"):
             save(tmp_path / "map")
     world = world_of()
-    for save in (world.save_picture, world.save_recording):
+    for save, ending in ((world.save_picture, "png"), (world.save_recording, "rrd")):
         with pytest.raises(RecordingError, match="missing"):
-            save(tmp_path / "missing" / "map")
+            save(tmp_path / "missing" / f"map.{ending}")
+        for name in ("map", "map.xyz"):
+            with pytest.raises(InputError, match=rf"Map\.save_.*{name}; must end with \.{ending}"):
+                save(tmp_path / name)
+        assert not any(tmp_path.iterdir())

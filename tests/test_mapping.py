@@ -372,6 +372,18 @@ def test_what_cannot_be_is_refused_by_its_name(call: Callable[[], object], messa
         call()
 
 
+def test_floats_of_millimetres_are_refused_and_a_few_far_pixels_are_not() -> None:
+    """By the rule of `treadwell map`: no depth camera sees half of a picture beyond 100 m."""
+    world = mapping.Map("fog", CAMERA)
+    far = np.full((120, 160), np.nan)
+    far[:, :80] = 1.5
+    far[:, 80:159] = 1500.0
+    assert world.insert(far, np.eye(4)).used
+    far[:, 70:] = 1500.0
+    with pytest.raises(InputError, match=r"beyond 100, its median at 1500, .*1000 for millimetres"):
+        world.insert(far.astype(np.float16), np.eye(4))
+
+
 def test_paths_may_be_strings_or_not(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=str(tmp_path)):
         mapping.find_stairs(_stairs_of(tmp_path))

@@ -126,10 +126,13 @@ def test_while_nothing_tells_where_it_may_be_the_pose_is_no_number(room: Path) -
 def test_what_cannot_be_used_is_named(room: Path, tmp_path: Path) -> None:
     where = MonteCarlo(room, CAMERA, start=np.eye(4))
     blank = np.zeros((HEIGHT, WIDTH), np.float16)
-    with pytest.raises(InputError, match=r"depth: found float64 \(2, 2\)"):
+    with pytest.raises(InputError, match=r"depth must be floats .*; got float64 \(2, 2\)"):
         where.update(np.zeros((2, 2)), np.eye(4))
-    with pytest.raises(InputError, match="depth: found bool"):
+    with pytest.raises(InputError, match=r"depth must be floats .*; got bool"):
         where.update(np.zeros((HEIGHT, WIDTH), bool), np.eye(4))
+    for kind in (np.uint16, np.float32):
+        with pytest.raises(InputError, match="divide by its units a metre, 1000 for millimetres"):
+            where.update(np.full((HEIGHT, WIDTH), 1500, kind), np.eye(4))
     for bad in (
         np.eye(3),
         np.full((4, 4), np.nan),

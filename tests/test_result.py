@@ -122,6 +122,19 @@ def test_each_expectation_that_is_not_met_is_named(
     assert judged.failures[0].startswith(word)
 
 
+@pytest.mark.parametrize(
+    ("reason", "told"),
+    [
+        ("stuck: the robot came away no more", "stuck (the robot came away no more)"),
+        ("elsewhere: far off", "stuck (elsewhere: far off)"),
+        (None, "stuck"),
+    ],
+)
+def test_what_ended_a_run_is_said_once(reason: str | None, told: str) -> None:
+    judged = result(scenario(), outcome="stuck", reason=reason).judged_by(Expect())
+    assert judged.failures == [f"outcome: {told}, expected goal_reached"]
+
+
 def test_limits_are_met_at_their_value() -> None:
     errors = Errors(
         translation_error=Spread(mean=0.1, std=0.0, max=0.3),

@@ -1,6 +1,7 @@
 """Claims about models that no walker can walk with: `robot check` says why, a line each."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -25,6 +26,10 @@ LINE = (
     '<geom type="sphere" size="0.005" pos="0.05 0 -0.03"/>'
     '<geom type="sphere" size="0.005" pos="-0.05 0 -0.03"/>'
 )
+BALL = '<geom type="sphere" size="0.03"/>'
+ROLLING = re.sub(
+    r'(_5_pitch" axis="0 1 0") range="\S+ \S+"', r"\1", biped((*SIX[:5], "pitch"), WHEEL)
+)
 FOUR = ("pitch", "knee", "pitch", "roll")
 THIRD = leg("left", SIX, BOX_FOOT).replace("left", "third").replace("0 0.05 -0.05", "-.1 0 -0.05")
 BOTH = leg("left", SIX, BOX_FOOT) + leg("right", SIX, BOX_FOOT)
@@ -43,7 +48,9 @@ WHEELED = "".join(
         (biped(SIX, legs=leg("left", SIX, BOX_FOOT)), "stands on 1 foot (left_5_roll_link)"),
         (biped(SIX, legs=UNLIKE), "the left leg has 6 hinges, the right one 7: as many are needed"),
         (biped(SIX, legs=WHEELED), "stands on wheels (left_wheel, right_wheel)"),
-        (biped((*SIX[:5], "pitch"), WHEEL), "stands on wheels (left_5_pitch_link"),
+        (ROLLING, "stands on wheels (left_5_pitch_link"),
+        (biped((*SIX[:5], "pitch"), WHEEL), "the left leg has no sole: 'left_5_pitch_link'"),
+        (biped(SIX, BALL), "the left leg has no sole: 'left_5_roll_link' touches the ground in a"),
         (biped(foot=POINT), "the left leg has no sole: 'left_5_roll_link' touches the ground in a"),
         (biped(foot=LINE), "the left leg has no sole: 'left_5_roll_link' touches the ground in a"),
         (biped(("yaw", "roll", "yaw", "roll", "yaw")), "the left leg has no knee"),
@@ -58,7 +65,10 @@ def test_each_reason_is_a_line_and_the_status_is_2(
     assert line in told
     assert "Traceback" not in told
     assert not (folder / "robot.toml").exists()
-    assert any(line in unlike for unlike in report_on(folder)["unlike"])
+    report = report_on(folder)
+    assert any(line in fault for fault in report["leg_faults"])
+    assert not report["unlike"]
+    assert not report["mirrored"]
 
 
 def test_a_model_without_inertia_is_told_what_to_give_which_link(

@@ -24,6 +24,12 @@ BROKEN = [
     ),
     ("kp = 150.0", "kp = nan", r"motors\.hip_and_knee\.kp"),
     ("kp = 150.0", "kb = 150.0", r"motors\.hip_and_knee\.kb: unknown key; allowed are .*kp, kv"),
+    (
+        "no_load_speed",
+        "no_load_sped",
+        r"no_load_sped: unknown key; allowed are .*; did you mean 'no_load_speed'\?",
+    ),
+    ("[gait]", "[giat]", r"giat: unknown key; allowed are .*; did you mean 'gait'\?"),
     ("period = 0.08", "period = 0.085", "multiple of the control tick"),
     ("stall_torque = 1.4", "stall_torque = 0.4", "must not be below peak_torque"),
     ("period = 0.08", "period = 0.08\npool = 3", "pool must divide width and height, got 3"),

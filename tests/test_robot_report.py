@@ -7,14 +7,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from biped_builders import BOX_FOOT, SIX, biped, leg, robot_folder
 from robot_builders import foreign_robot, qrio_copy
 
 from treadwell.cli.app import execute
 from treadwell.cli.robot import check
 from treadwell.errors import InputError
+from treadwell.robot.reach import Rise, what_ends
 from treadwell.robot.report import report_on
 from treadwell.robot.template import write_template
 
+BALL = '<geom type="sphere" size="0.03"/>'
 TABLES = ("robot", "body", "legs", "camera", "motors")
 
 
@@ -45,6 +48,7 @@ def test_a_bare_model_is_reported_with_what_a_robot_toml_needs(tmp_path: Path) -
     report = report_on(folder)
     assert not report["fits"]
     assert "is missing" in report["problems"][0]
+    assert f"`treadwell robot check {folder} --write-template` drafts it" in report["problems"][0]
     assert [line.split(":")[0] for line in report["problems"][1:]] == list(TABLES)
     assert report["legs"]["left"]["joints"][3]["name"] == "left_knee_pitch"
     assert report["mass"]["total"] == pytest.approx(7.0)
@@ -66,9 +70,40 @@ def test_legs_without_names_are_no_legs_and_each_joint_of_them_has_its_line(tmp_
     report = report_on(folder)
     assert report["legs"] == {}
     assert sum("joint" in line and "has no name" in line for line in report["problems"]) == 12
-    assert "two legs of named hinges" in report["unlike"][0]
+    assert "two legs of named hinges" in report["leg_faults"][0]
     with pytest.raises(InputError, match="two legs of named hinges"):
         write_template(folder)
+
+
+def test_the_title_above_what_is_wrong_with_legs_says_what_it_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    balls = robot_folder(tmp_path, biped(SIX, BALL), "balls")
+    execute(["robot", "check", str(balls)])
+    shown = capsys.readouterr().out
+    assert "no two legs to walk on" in shown
+    (fault,) = [line for line in report_on(balls)["leg_faults"] if "the left leg" in line]
+    assert fault in " ".join(shown.split())
+    assert "mirror" not in shown
+    unlike = leg("left", SIX, BOX_FOOT) + leg("right", SIX, BOX_FOOT).replace("-0.7 0.7", "-1 0.2")
+    execute(["robot", "check", str(robot_folder(tmp_path, biped(SIX, legs=unlike), "askew"))])
+    shown = capsys.readouterr().out
+    assert "the legs are no mirror images" in shown
+    assert "no two legs" not in shown
+
+
+@pytest.mark.parametrize(
+    ("share", "told"),
+    [
+        (4.0, "the knee needs 4 times its peak torque"),
+        (1.04, "the knee needs 1.04 times its peak torque"),
+        (0.95, "the knee needs 95 % of its peak torque, of which 90 % may be used"),
+    ],
+)
+def test_a_step_that_is_too_much_for_a_motor_says_how_much_it_takes(
+    share: float, told: str
+) -> None:
+    assert what_ends(Rise(0.01, True, 0.2, share, "knee", 1.0)) == told
 
 
 def test_a_pipe_in_a_robot_tomls_place_is_not_waited_for(tmp_path: Path) -> None:

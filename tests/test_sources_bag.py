@@ -270,11 +270,12 @@ def test_nothing_of_a_bags_folder_is_waited_for(tmp_path: Path) -> None:
         open_source(folder)
 
 
-def test_a_compressed_depth_image_is_read(tmp_path: Path) -> None:
+def compressed(topic: str) -> bags.Told:
+    """The picture at 2 s as image_transport packs it."""
     packed = BytesIO()
     numbers = np.round(1000 * picture()).astype(np.uint16)
     Image.fromarray(numbers).save(packed, "PNG")
-    topic, kind = "/camera/depth/image_raw/compressedDepth", "sensor_msgs/msg/CompressedImage"
+    kind = "sensor_msgs/msg/CompressedImage"
     _, _, _, plain = bags.image(2 * SECOND)
 
     def make(store: bags.Typestore) -> object:
@@ -284,10 +285,40 @@ def test_a_compressed_depth_image_is_read(tmp_path: Path) -> None:
             data=np.frombuffer(bytes(12) + packed.getvalue(), np.uint8),
         )
 
-    told = [bags.info(), *way(), (topic, kind, 2 * SECOND, make)]
+    return topic, kind, 2 * SECOND, make
+
+
+def test_a_compressed_depth_image_is_read(tmp_path: Path) -> None:
+    topic = "/camera/depth/image_raw/compressedDepth"
+    told = [bags.info(), *way(), compressed(topic)]
     _, (frame,) = read(write_bag(tmp_path, "ros1 bag", told))
     assert frame.depth is not None
     np.testing.assert_allclose(frame.depth[2:], picture()[2:], rtol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("infos", "told"),
+    [
+        ((), r"no camera info \(/cam/camera_info or /cam/depth/camera_info\); name a camera"),
+        (("/left/camera_info",), r"; elsewhere there is /left/camera_info; name a camera"),
+        (("/cam/a", "/cam/b"), r"several camera infos beside it, .* \(/cam/a, /cam/b\)"),
+    ],
+)
+def test_a_compressed_image_without_a_camera_says_where_it_was_looked_for(
+    tmp_path: Path, infos: tuple[str, ...], told: str
+) -> None:
+    topic = "/cam/depth/compressedDepth"
+    bag = [*(bags.info(topic=name) for name in infos), *way(), compressed(topic)]
+    with pytest.raises(InputError, match=told):
+        open_source(write_bag(tmp_path, "ros1 bag", bag))
+
+
+def test_the_camera_of_a_compressed_image_may_be_below_its_topic(tmp_path: Path) -> None:
+    """Some drivers take the image's own name for a folder."""
+    topic = "/cam/depth/compressedDepth"
+    told = [bags.info(topic="/cam/depth/camera_info"), *way(), compressed(topic)]
+    _, (frame,) = read(write_bag(tmp_path, "ros1 bag", told))
+    assert frame.camera is not None
 
 
 def test_a_message_without_a_stamp_has_the_time_of_its_recording(tmp_path: Path) -> None:

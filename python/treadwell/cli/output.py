@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 from treadwell.errors import InputError, TreadwellError
 from treadwell.interruption import leave_terminal
@@ -84,9 +84,11 @@ def write_table(title: str, header: Sequence[str], rows: Sequence[Sequence[objec
     from rich.text import Text
 
     table = Table(title=Text(title, style="bold"), box=SIMPLE_HEAD, title_justify="left")
+    alone = len(header) == 1
     for number, name in enumerate(header):
-        # Names are what one types next: never cut.
-        table.add_column(name, no_wrap=number == 0)
+        # Names are what one types next: never broken. A column alone has sentences: never cut.
+        overflow: Literal["fold", "ellipsis"] = "fold" if alone else "ellipsis"
+        table.add_column(name, no_wrap=number == 0 and not alone, overflow=overflow)
     for row in rows:
         # Text and not markup: names and descriptions are the user's.
         table.add_row(*(Text(str(cell)) for cell in row))

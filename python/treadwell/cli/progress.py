@@ -13,7 +13,13 @@ SECONDS_A_LINE = 5.0
 """Simulated seconds between two lines where there is no terminal."""
 
 
-def line(time_s: float, state: str, distance_m: float, real_time_factor: float) -> str:
+COLUMN = len("look_around")
+"""The longest state of the behaviours that come along; those of a user's may be longer."""
+
+
+def line(
+    time_s: float, state: str, distance_m: float, real_time_factor: float, column: int = COLUMN
+) -> str:
     """Return the progress line.
 
     Args:
@@ -21,9 +27,11 @@ def line(time_s: float, state: str, distance_m: float, real_time_factor: float) 
         state: what the behaviour is doing.
         distance_m: from the goal, metres.
         real_time_factor: simulated seconds for each second of the clock.
+        column: letters that the state has room for.
     """
     return (
-        f"{time_s:6.1f} s  {state:<10}  {distance_m:5.2f} m to the goal  {real_time_factor:5.1f}x"
+        f"{time_s:6.1f} s  {state:<{column}}  {distance_m:5.2f} m to the goal  "
+        f"{real_time_factor:5.1f}x"
     )
 
 
@@ -45,6 +53,7 @@ class ProgressLine:
         self._terminal = sys.stderr.isatty() if terminal is None else terminal
         self._status: Status | None = None
         self._state = ""
+        self._column = COLUMN
         self._next_s = 0.0
 
     def __enter__(self) -> Self:
@@ -73,7 +82,8 @@ class ProgressLine:
             distance_m: from the goal, metres.
             real_time_factor: simulated seconds for each second of the clock.
         """
-        text = line(time_s, state, distance_m, real_time_factor)
+        self._column = max(self._column, len(state))
+        text = line(time_s, state, distance_m, real_time_factor, self._column)
         if self._status is not None:
             from rich.text import Text
 

@@ -145,10 +145,12 @@ def _show_legs(document: Mapping[str, Any]) -> None:
         for side, sole in document["soles"].items()
     ]
     write_table("soles", ("", "size", "centre in the link", "link"), soles)
-    if document["unlike"]:
-        write_table(
-            "the legs are no mirror images", ("",), [(line,) for line in document["unlike"]]
-        )
+    for title, key in (
+        ("no two legs to walk on", "leg_faults"),
+        ("the legs are no mirror images", "unlike"),
+    ):
+        if document[key]:
+            write_table(title, ("",), [(line,) for line in document[key]])
 
 
 def _show_senses(document: Mapping[str, Any]) -> None:

@@ -58,13 +58,18 @@ def _figures(document: dict[str, Any]) -> Table:
     ]
     return Table(
         "Comparison",
-        ("", "episodes", *(metric.title for metric in shown)),
+        ("", "episodes", *(_title(metric) for metric in shown)),
         tuple(rows),
         (
-            "Shares with Wilson's 95 % interval; time and path efficiency of those that arrived.",
+            "Shares with Wilson's 95 % interval; time and path efficiency of those that arrived. "
+            "What is neither a share nor called a median is a mean.",
             *filter(None, (pairs_note(document),)),
         ),
     )
+
+
+def _title(metric: Metric) -> str:
+    return f"{metric.title}, median" if metric.kind == "median" else metric.title
 
 
 def _figure(metric: Metric, figure: dict[str, Any]) -> str:
@@ -124,13 +129,15 @@ def _differences(document: dict[str, Any]) -> Table:
     first = document["candidates"][0]["name"] if document["candidates"] else ""
     return Table(
         f"Against {first}",
-        ("", "figure", "difference", "95 % interval", "pairs", "p", "", "pairs it takes"),
+        ("", "figure", "mean difference", "95 % interval", "pairs", "p", "", "pairs it takes"),
         tuple(rows),
         (
-            "Pairs: the same scenario and seed. McNemar's exact test of shares, a permutation test "
-            f"of the rest, {_correction(document)}; a difference is one below {LEVEL:g}. "
-            "Intervals, of one difference each and not corrected: Newcombe's of shares, else what "
-            "the permutation test would not contradict; fewer than six pairs have none.",
+            "Pairs: the same scenario and seed, where both have the figure. The mean is of these "
+            "pairs alone, also of what stands above as a median. McNemar's exact test of shares, "
+            f"a permutation test of the rest, {_correction(document)}; a difference is one below "
+            f"{LEVEL:g}. Intervals, of one difference each and not corrected: Newcombe's of "
+            "shares, else what the permutation test would not contradict; fewer than six pairs "
+            "have none.",
             *_few_note(document),
         ),
     )
@@ -141,7 +148,9 @@ def _needed(one: dict[str, Any]) -> str:
     if one["verdict"] in _TURNED:
         return ""
     least = f"{one['pairs_least']} at least" if one["verdict"] == TOO_FEW else ""
-    about = f"about {one['pairs_for_power']}" if one["pairs_for_power"] is not None else ""
+    estimate = one["pairs_for_power"]
+    known = estimate is None or (least and estimate <= one["pairs_least"])
+    about = "" if known else f"about {estimate}"
     return ", ".join(filter(None, (least, about))) or NOTHING
 
 
@@ -159,7 +168,7 @@ def _few_note(document: dict[str, Any]) -> list[str]:
             f"tests, however large it is: the least p of n pairs is 2 / 2^n. It takes {least} at "
             "least, and those only where all differ in the same direction."
         )
-    if any(one["pairs_for_power"] is not None for one in found):
+    if any("about" in _needed(one) for one in found):
         notes.append(
             f"About: so many pairs show a difference as large as the one seen in {100 * POWER:g} % "
             "of cases; by few pairs it is known no better than the difference itself."

@@ -232,7 +232,9 @@ def unmet(result: Result, expect: Expect) -> list[str]:
     """Return a sentence for each expectation that was not met."""
     failures = []
     if result.outcome != expect.outcome:
-        because = f" ({result.reason})" if result.reason else ""
+        # A reason begins with a word, which may be the outcome's own.
+        reason = (result.reason or "").removeprefix(f"{result.outcome}: ")
+        because = f" ({reason})" if reason else ""
         failures.append(f"outcome: {result.outcome}{because}, expected {expect.outcome}")
 
     def at_most(name: str, found: float | None, limit: float | None, unit: str) -> None:

@@ -13,6 +13,7 @@ from treadwell.plugins import check_component, load_component
 from treadwell.scenario.messages import describe_in, report
 from treadwell.scenario.model import Navigation
 from treadwell.scenario.overrides import Overrides, assign, read_overrides
+from treadwell.sources.depth_image import FARTHEST_DEPTH_M, lies_beyond
 from treadwell.sources.frame import Floats, PinholeCamera
 
 _FARTHEST_M: Final = 10_000.0
@@ -32,19 +33,35 @@ def depth_picture(depth: ArrayLike, camera: PinholeCamera) -> NDArray[np.float32
     Raises:
         InputError: it is no picture of that camera.
     """
+    return checked_depth(depth, (camera.height, camera.width))
+
+
+def checked_depth(depth: ArrayLike, expected: tuple[int, int]) -> NDArray[np.float32]:
+    """Return depths as the core takes them: as `depth_picture` does, for rows and columns.
+
+    Raises:
+        InputError: they are no picture of that size, or no metres.
+    """
     given = np.asarray(depth)
-    expected = (camera.height, camera.width)
+    integers = given.dtype.kind in "iu"
     if given.dtype.kind != "f" or given.shape != expected:
         raise InputError(
             f"depth must be floats {expected} (rows, columns of the camera), in metres; got "
             f"{given.dtype} {given.shape}"
-            + (": divide by its units a metre" if given.dtype.kind in "iu" else "")
+            + (": divide by its units a metre, 1000 for millimetres" if integers else "")
         )
     seen = np.isfinite(given) & (given > 0)
     farthest = given.max(where=seen, initial=0.0)
     if farthest > _FARTHEST_M:
         raise InputError(f"depth must be metres, at most {_FARTHEST_M:g}; got {farthest:g}")
-    return np.ascontiguousarray(np.where(seen, given, np.nan), np.float32)
+    metres = np.ascontiguousarray(np.where(seen, given, np.nan), np.float32)
+    if lies_beyond(metres, int(np.count_nonzero(seen))):
+        raise InputError(
+            f"depth must be metres, but half of the picture lies beyond {FARTHEST_DEPTH_M:g}, its "
+            f"median at {float(np.nanmedian(metres)):.4g}, farther than a depth camera sees: "
+            "divide by its units a metre, 1000 for millimetres"
+        )
+    return metres
 
 
 def cloud_points(points: ArrayLike) -> NDArray[np.float32]:

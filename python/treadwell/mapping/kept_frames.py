@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell._core import FloorView, Planes, RangeMap
+from treadwell.errors import InputError
 from treadwell.map_making.made import writing
 from treadwell.map_making.mapper import placed_cubes, placed_map
 from treadwell.map_making.recording import MapRecording
@@ -78,8 +79,10 @@ class KeptFrames:
         """Draw the map from above, with the way of the sensor, as a PNG file.
 
         Raises:
+            InputError: the path ends otherwise than a PNG file.
             RecordingError: the file cannot be written.
         """
+        _check_ending("save_picture", path, ".png")
         # Late: matplotlib takes its time.
         from treadwell.map_making.picture import draw_map
 
@@ -97,8 +100,10 @@ class KeptFrames:
             offset: (3,) m, its origin in the world.
 
         Raises:
+            InputError: the path ends otherwise than a recording.
             RecordingError: the file cannot be written.
         """
+        _check_ending("save_recording", path, ".rrd")
         found, surface = self.map(offset), core.surface()
         with writing(path):
             recording = MapRecording(path, name, found.cell)
@@ -108,3 +113,9 @@ class KeptFrames:
                 corners = (surface[0] + offset).astype(np.float32)
                 recording.surface(SurfaceMesh(corners, surface[1]), offset)
             recording.finish(found, offset, placed_cubes(core, offset))
+
+
+def _check_ending(asked: str, path: Path, ending: str) -> None:
+    """Refuse a file whose name says that something else is in it."""
+    if path.suffix.lower() != ending:
+        raise InputError(f"Map.{asked}: found {path}; must end with {ending}")

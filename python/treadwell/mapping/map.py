@@ -177,7 +177,7 @@ class Map:
             name: what was mapped.
 
         Raises:
-            InputError: no frame was used yet.
+            InputError: no frame was used yet, or the file's name ends otherwise.
             RecordingError: the file cannot be written.
         """
         core, place = self._made("save_picture", used=True)
@@ -202,7 +202,7 @@ class Map:
             name: what was mapped.
 
         Raises:
-            InputError: no frame was used yet.
+            InputError: no frame was used yet, or the file's name ends otherwise.
             RecordingError: the file cannot be written.
         """
         core, place = self._made("save_recording", used=True)

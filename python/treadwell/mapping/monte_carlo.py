@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from treadwell import _core
 from treadwell.errors import InputError
 from treadwell.mapping.camera import Camera
+from treadwell.mapping.checks import checked_depth
 
 Floats = NDArray[np.float64]
 
@@ -120,16 +121,10 @@ class MonteCarlo:
             spread: how sure it is.
 
         Raises:
-            InputError: the picture has another size than the camera's, or the motion is no rigid
-                one.
+            InputError: the picture has another size than the camera's or no metres, or the motion
+                is no rigid one.
         """
-        picture = np.asarray(depth)
-        if picture.shape != self._size or picture.dtype.kind not in "fiu":
-            raise InputError(
-                f"depth: found {picture.dtype} {picture.shape}; metres of shape {self._size}, as"
-                " the camera's, are needed"
-            )
-        picture = np.ascontiguousarray(picture, dtype=np.float32)
+        picture = checked_depth(depth, self._size)
         found = self._core.update(picture, _pose("previous_from_current", previous_from_current))
         if found is None:
             return np.full((4, 4), np.nan), Spread(np.inf, np.inf, lost=True)

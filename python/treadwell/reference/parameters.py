@@ -105,8 +105,8 @@ def find_parameters(name: str | None = None, robot: "Robot | None" = None) -> li
     if not found:
         names = [table.name for table in all_tables()]
         raise InputError(
-            f"NAME: there are no parameters of {name!r}: allowed are {', '.join(names)}, "
-            f"and the beginning of a key{nearest(name, names)}"
+            f"NAME: there are no parameters of {name!r}{nearest(name, names, first=True)}"
+            f"allowed are {', '.join(names)}, and the beginning of a key"
         )
     return found
 

@@ -10,6 +10,7 @@ import mujoco
 from treadwell.errors import InputError
 from treadwell.robot.file import LegTable, RobotFile
 from treadwell.robot.followers import followers
+from treadwell.scenario.messages import nearest
 
 
 class Lookup:
@@ -36,7 +37,8 @@ class Lookup:
         if name not in known:
             self.fail(
                 key,
-                f"there is no {kind} {name!r} in {self.mjcf.name}; it has {listed(known)}",
+                f"there is no {kind} {name!r} in {self.mjcf.name}; it has {listed(known)}"
+                f"{nearest(name, known)}",
             )
         return known[name]
 

@@ -11,6 +11,8 @@ LEAST_KNEE = 0.03
 """Share of a leg's length that its knee changes at least."""
 NEAR_M = 0.01
 ALONG = 0.95
+FULL_TURN_RAD = 2.0 * np.pi
+"""The range of a joint that lets a wheel roll, where it has one."""
 FEW = 8
 """Names that a line lists."""
 _ROUND = (
@@ -70,11 +72,14 @@ def _faults(anatomy: Anatomy, foot: int) -> list[str]:
         return [f"has joints that are no hinges ({_list(sliding)})"]
     link = int(model.jnt_bodyid[joints[-1]])
     sole = anatomy.sole(link)
-    if not sole.bears:
+    # What is round about its joint rolls, however wide the part of it that is near to the ground.
+    rolls = _is_round(anatomy, link)
+    if rolls or not sole.bears:
+        size = f"{1e3 * sole.length:.0f} x {1e3 * sole.width:.0f} mm"
         return [
             f"has no sole: {model.body(link).name!r} touches the ground in a point or a line, "
-            f"{1e3 * sole.length:.0f} x {1e3 * sole.width:.0f} mm; give it a box, or a small "
-            "sphere at each of four corners"
+            f"{'round as it is' if rolls else size}; give it a box, or a small sphere at each of "
+            "four corners"
         ]
     if shortens(anatomy.data, joints, anatomy.sole_place(link, sole)) < LEAST_KNEE:
         return ["has no knee: no joint changes the distance from hip to sole"]
@@ -82,6 +87,15 @@ def _faults(anatomy: Anatomy, foot: int) -> list[str]:
 
 
 def _is_wheel(anatomy: Anatomy, foot: int) -> bool:
+    """Whether a link is round about its own, level joint, and turns all the way round."""
+    if not _is_round(anatomy, foot):
+        return False
+    model, joint = anatomy.model, int(anatomy.model.body_jntadr[foot])
+    low, high = model.jnt_range[joint]
+    return not model.jnt_limited[joint] or bool(high - low >= FULL_TURN_RAD)
+
+
+def _is_round(anatomy: Anatomy, foot: int) -> bool:
     """Whether a link is round about its own, level joint."""
     model, data = anatomy.model, anatomy.data
     if not model.body_jntnum[foot]:

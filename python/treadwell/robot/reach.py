@@ -62,6 +62,23 @@ class Rise:
         return self.reached and self.touches is None and self.torque_share <= MOST_TORQUE
 
 
+def what_ends(rise: Rise) -> str | None:
+    """Say why a step is not possible; None where it is."""
+    if rise.possible:
+        return None
+    if not rise.reached:
+        return "the legs do not reach" + (f": {rise.ended}" if rise.ended else "")
+    if rise.touches is not None:
+        return f"{rise.touches} touches a step"
+    share = rise.torque_share
+    needs = (
+        f"{share:.3g} times its peak torque"
+        if share > 1.0
+        else f"{100 * share:.3g} % of its peak torque, of which {100 * MOST_TORQUE:g} % may be used"
+    )
+    return f"the {rise.joint} needs {needs}"
+
+
 class Reach:
     """Tries postures of a robot's legs: statics alone, nothing moves.
 

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 from treadwell.errors import InputError
 from treadwell.robot.file import RobotFile
 from treadwell.scenario.loading import read_toml
-from treadwell.scenario.messages import shown
+from treadwell.scenario.messages import nearest, shown
 
 
 def read_robot_file(path: Path) -> RobotFile:
@@ -54,7 +54,8 @@ def _lines(path: Path, error: ValidationError) -> list[str]:
         )
         if item["type"] == "extra_forbidden":
             allowed = _allowed(item["loc"][:-1])
-            message, found = f"unknown key; allowed are {', '.join(allowed)}", ""
+            hint = nearest(item["loc"][-1], allowed)
+            message, found = f"unknown key; allowed are {', '.join(allowed)}{hint}", ""
         elif item["type"] == "missing":
             message, found = "is missing", ""
         lines.append(f"{path}: {key}: {message}{found}")

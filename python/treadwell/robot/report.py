@@ -1,6 +1,7 @@
 """A report on a robot's folder: what was found, what is missing, what its gait can do."""
 
 import math
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ from treadwell.robot.leg_faults import leg_faults
 from treadwell.robot.leg_loads import leg_loads, too_weak
 from treadwell.robot.load import Robot, load_folder
 from treadwell.robot.model_file import compile_alone, find_model
-from treadwell.robot.reach import Reach, Rise
+from treadwell.robot.reach import Reach, Rise, what_ends
 from treadwell.robot.reading import required_keys
 from treadwell.robot.soles import Sole
 from treadwell.robot.step_blocks import TREAD_M
@@ -54,7 +55,11 @@ def report_on(folder: Path) -> dict[str, Any]:
     except InputError as error:
         document["problems"] += str(error).splitlines()
         if not (folder / "robot.toml").exists():
-            document["problems"] = [f"{folder / 'robot.toml'}: is missing", *required_keys()]
+            document["problems"] = [
+                f"{folder / 'robot.toml'}: is missing; `treadwell robot check "
+                f"{shlex.quote(str(folder))} --write-template` drafts it",
+                *required_keys(),
+            ]
         told = "\n".join(document["problems"])
         parts = [f"{mjcf}: {part} has no name" for part in nameless(bare)]
         document["problems"] += [line for line in parts if line not in told]
@@ -83,13 +88,15 @@ def _found(anatomy: Anatomy) -> dict[str, Any]:
         side: {"joints": _joints(anatomy, leg.joints, leg.foot), "foot": leg.foot}
         for side, leg in legs.items()
     }
-    unlike = leg_faults(anatomy)
-    if not unlike:
+    faults = leg_faults(anatomy)
+    unlike = []
+    if not faults:
         unlike = anatomy.differences(legs["left"].joints, legs["right"].joints)
     return {
         "mass": {"total": float(sum(link["mass"] for link in links)), "links": links},
         "legs": chains,
-        "mirrored": not unlike,
+        "leg_faults": faults,
+        "mirrored": not faults and not unlike,
         "unlike": unlike,
         "soles": {side: _sole(leg.sole) for side, leg in legs.items()},
         "actuators": [_actuator(model, number) for number in range(model.nu)],
@@ -168,6 +175,7 @@ def _told(robot: Robot, anatomy: Anatomy, document: dict[str, Any]) -> dict[str,
             side: {"joints": _joints(anatomy, leg.joints, leg.sole.link), "foot": leg.sole.link}
             for side, leg in legs.items()
         },
+        "leg_faults": [],
         "unlike": anatomy.differences(legs["left"].joints, legs["right"].joints),
         "soles": soles,
         "motors": [
@@ -255,17 +263,9 @@ def _gait(robot: Robot) -> dict[str, Any]:
 
 def _steps(rises: list[Rise]) -> dict[str, Any]:
     possible = [rise for rise in rises if rise.possible]
-    last = rises[-1]
-    ends = None
-    if not last.possible:
-        ends = f"the {last.joint} bears {last.torque_share:.1f} of its peak torque"
-        if last.touches is not None:
-            ends = f"{last.touches} touches a step"
-        if not last.reached:
-            ends = "the legs do not reach" + (f": {last.ended}" if last.ended else "")
     return {
         "highest": abs(possible[-1].height_m) if possible else 0.0,
-        "ends": ends,
+        "ends": what_ends(rises[-1]),
         "steps": [
             {
                 "height": abs(rise.height_m),

@@ -119,8 +119,8 @@ def find_scenario(name_or_path: str | Path) -> Path:
             "must be a scenario file or a scenario's name"
         )
     raise InputError(
-        f"{shortened(text)}: no such file or scenario; scenarios: {', '.join(names)}"
-        f"{nearest(stem, names)}"
+        f"{shortened(text)}: no such file or scenario{nearest(stem, names, first=True)}"
+        f"scenarios: {', '.join(names)}"
     )
 
 

@@ -30,12 +30,19 @@ MISSING: Final = object()
 NOT_SET: Final = SetKeys()
 
 
-def nearest(word: object, allowed: Iterable[str]) -> str:
-    """Return "; did you mean 'x'?" for the most similar allowed word, or nothing."""
+def nearest(word: object, allowed: Iterable[str], *, first: bool = False) -> str:
+    """Return "; did you mean 'x'?" for the most similar allowed word, or nothing.
+
+    Args:
+        word: what was found.
+        allowed: words.
+        first: a long list follows: what parts the two is there as well, also without a word.
+    """
     if not isinstance(word, str):
-        return ""
+        return "; " if first else ""
     found = difflib.get_close_matches(word[:100], list(allowed), n=1, cutoff=0.6)
-    return f"; did you mean '{found[0]}'?" if found else ""
+    hint = f"; did you mean '{found[0]}'?" if found else ""
+    return (f"{hint} " if hint else "; ") if first else hint
 
 
 def shown(value: object, longest: int = 60) -> str:

@@ -256,10 +256,8 @@ def _camera(path: Path, topic: str, survey: _Survey) -> PinholeCamera:
     there = [name for name in survey.infos if name.rpartition("/")[0] in (near, plain)]
     beside = f"{near}/camera_info" if f"{near}/camera_info" in there else there[0] if there else ""
     if not beside or (len(there) > 1 and not beside.endswith("/camera_info")):
-        raise InputError(
-            f"{path}: {topic}: has no camera info ({near}/camera_info); name a camera.toml by "
-            "--camera"
-        )
+        lacks = _without_info(plain, there, survey)
+        raise InputError(f"{path}: {topic}: {lacks}; name a camera.toml by --camera")
     info = survey.infos[beside]
     camera = ros.camera_of(info, topic)
     if camera is None:
@@ -270,6 +268,16 @@ def _camera(path: Path, topic: str, survey: _Survey) -> PinholeCamera:
     if "rect" not in topic and ros.is_distorted(info):
         _note(survey.notes, f"the lens of {topic[:100]} is distorted, which is not taken out")
     return camera
+
+
+def _without_info(plain: str, there: Sequence[str], survey: _Survey) -> str:
+    """Say of an image without a camera where its info was looked for, and which there are."""
+    near = plain.rpartition("/")[0]
+    found = ", ".join(name[:100] for name in sorted(there or survey.infos)[:20])
+    if there:
+        return f"has several camera infos beside it, none called camera_info ({found})"
+    elsewhere = f"; elsewhere there is {found}" if found else ""
+    return f"has no camera info ({near}/camera_info or {plain}/camera_info){elsewhere}"
 
 
 def _whole(messages: Iterator[Message], notes: list[str]) -> Iterator[Message]:

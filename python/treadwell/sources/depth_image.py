@@ -56,7 +56,7 @@ class DepthUnit:
         metres[~seen] = np.nan
         if self.scale is None:
             self.scale = 1.0
-            if _lies_beyond(metres, count):
+            if lies_beyond(metres, count):
                 self.scale = MILLIMETRES
                 self.notes.append(
                     f"depths are taken for millimetres: half of the first image would lie beyond "
@@ -64,13 +64,18 @@ class DepthUnit:
                 )
         if self.scale != 1.0:
             metres *= np.float32(self.scale)
-        if _lies_beyond(metres, count):
+        if lies_beyond(metres, count):
             raise UnusableError(f"depth beyond {FARTHEST_DEPTH_M:g} m")
         return metres
 
 
-def _lies_beyond(metres: NDArray[np.float32], count: int) -> bool:
-    """Whether more than half of an image's pixels, of which some are seen, lie too far away."""
+def lies_beyond(metres: NDArray[np.float32], count: int) -> bool:
+    """Whether more than half of an image's seen pixels lie too far away to be metres.
+
+    Args:
+        metres: (h, w), if its source is right.
+        count: how many pixels were seen.
+    """
     return 2 * int(np.count_nonzero(metres > FARTHEST_DEPTH_M)) > count
 
 
