@@ -364,7 +364,10 @@ SKEW = np.diag([2.0, 1.0, 1.0, 1.0])
         (lambda: mapping.plan(box_in_the_way(0.3), (0, 0, 0), (1, 1), planner="a_sta"), "a_star"),
         (lambda: mapping.plan(box_in_the_way(0.3), (0, 0, 0), (1, 1), robot="qro"), "qrio"),
         (lambda: mapping.plan(box_in_the_way(0.3), *AWAY, planner=Nothing), "a Plan, got None"),
-        (lambda: mapping.plan(object(), (0, 0, 0), (1, 1)), r"view\(\)\.kind is missing"),
+        (
+            lambda: mapping.plan(object(), (0, 0, 0), (1, 1)),
+            r"view\(\) must return a FloorMap, got object",
+        ),
     ],
 )
 def test_what_cannot_be_is_refused_by_its_name(call: Callable[[], object], message: str) -> None:
