@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from treadwell._core import Octree, RangeField
+from treadwell.errors import InputError
 
 
 def corner() -> Octree:
@@ -36,5 +37,5 @@ def test_rays_end_on_the_faces_of_what_is_occupied() -> None:
 
 def test_what_makes_no_rays_is_refused() -> None:
     field = RangeField(corner())
-    with pytest.raises(ValueError, match="as many"):
+    with pytest.raises(InputError, match="as many"):
         field.cast(np.zeros((2, 3)), np.zeros((1, 3)), 1.0)
