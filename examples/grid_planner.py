@@ -1,6 +1,6 @@
 """A planner of one's own: A* over the cells in which the robot has room, kept while it holds.
 
-treadwell run slalom --set navigation.planner=grid_planner:GridPlanner
+PYTHONPATH=. treadwell run slalom --set navigation.planner=grid_planner:GridPlanner
 """
 
 import heapq

@@ -1,6 +1,7 @@
 """What Python gives that the command line cannot: numpy's numbers, lists, wrong types; reprs."""
 
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -56,6 +57,8 @@ def test_numbers_of_numpy_are_numbers() -> None:
     [
         ({"out": 5}, "out: found 5; must be the path of a folder"),
         ({"record": "no"}, "record: found 'no'; must be True or False"),
+        ({"view": "no"}, "view: found 'no'; must be True or False"),
+        ({"user_code": "no"}, "user_code: found 'no'; must be True or False"),
         ({"planner": "a_start"}, r"planner: found 'a_start'; .* did you mean 'a_star'\?"),
         ({"planner": 3}, "planner: int has no method plan"),
     ],
@@ -161,3 +164,13 @@ def test_a_map_shows_its_picture_in_a_notebook() -> None:
 def test_the_tab_key_offers_the_library() -> None:
     assert {"mapping", "costs", "protocols", "run"} <= set(dir(treadwell))
     assert treadwell.mapping is mapping
+
+
+def test_a_module_in_the_working_folder_is_pointed_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "mine_alone.py").write_text("class Mine: ...\n")
+    monkeypatch.chdir(tmp_path)
+    message = r"^--set navigation.planner: .* mine_alone.py is here: with PYTHONPATH=\. it is found"
+    with pytest.raises(InputError, match=message):
+        treadwell.Episode("open_floor", overrides=["navigation.planner=mine_alone:Mine"])

@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 
 import treadwell
 from treadwell.cli import run as cli_run
+from treadwell.measuring.measures import PoseErrors
 from treadwell.replaying.replay import Replay
 from treadwell.replaying.result import ReplayFacts, ReplayResult
 from treadwell.runner import Run
-from treadwell.summary import html_table
+from treadwell.summary import html_table, result_rows
 
 NASTY = '<script>alert("&")</script>'
 
@@ -116,3 +117,19 @@ def test_the_tab_key_offers_of_the_library_what_is_public() -> None:
     from treadwell import mapping
 
     assert {name for name in dir(mapping) if not name.startswith("__")} == set(mapping.__all__)
+
+
+def test_the_error_says_how_long_the_robot_knew_that_it_was_lost() -> None:
+    errors = PoseErrors()
+    for place in (0.0, 0.4):
+        errors.add_level((place, 0.0, 0.0, 0.0), (0.0,) * 4, (0.0,) * 4)
+    found = errors.errors()
+    assert found is not None
+    assert found.lost_share == 0.0
+    errors.add_lost()
+    found = errors.errors()
+    assert found is not None
+    assert found.lost_share == 0.5
+    document = {**result(scenario()).document(), "localization": found.model_dump()}
+    told = dict(result_rows(document))["localization error, mean"]
+    assert told == "0.200 m; in 50% of the frames it knew that it was lost"

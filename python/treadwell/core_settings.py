@@ -18,6 +18,7 @@ from treadwell.plugins import (
 from treadwell.protocols import Setup
 from treadwell.scenario.messages import nearest, report
 from treadwell.scenario.model import Navigation, Scenario
+from treadwell.scenario.values import flag
 
 if TYPE_CHECKING:
     # A replay tells the core the same without MuJoCo, which these two need.
@@ -169,7 +170,7 @@ def user_components(
     where = str(scenario.path or scenario.name)
     slots = {slot: name for slot, name in scenario.navigation.slots().items() if slot not in given}
     parts = foreign_parts(slots)
-    if not user_code:
+    if not flag("user_code", user_code):
         refuse_user_code(parts, where)
     loaded = {}
     for part in parts:
@@ -177,7 +178,7 @@ def user_components(
         try:
             loaded[part.slot] = load_component(part.slot, part.name, own)
         except InputError as error:
-            raise InputError(f"{where}: {error}") from error
+            raise InputError(report(where, [str(error)], given=scenario.set_keys)) from error
     return {**loaded, **brought}
 
 

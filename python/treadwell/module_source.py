@@ -52,7 +52,9 @@ def locate(module: str) -> Located:
         else:
             spec = getattr(loaded, "__spec__", None) or ModuleSpec(name, None)
         if spec is None:
-            raise InputError(f"there is no module {name} on Python's path")
+            here = Path(f"{name.partition('.')[0]}.py")
+            hint = f"; {here} is here: with PYTHONPATH=. it is found" if here.is_file() else ""
+            raise InputError(f"there is no module {name} on Python's path{hint}")
         located = _located(name, spec)
     assert located is not None
     return located

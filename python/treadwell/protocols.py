@@ -168,10 +168,14 @@ class Plan:
             path.
     """
 
-    path: NDArray[np.float64] | None = field(repr=False)
+    path: NDArray[np.float64] | None
     reason: str = ""
     replanned: bool = True
     footsteps: Sequence[ListedStep] = ()
+
+    def __repr__(self) -> str:
+        way = self.reason if self.path is None else f"{len(self.path)} points"
+        return f"<Plan: {way}, {len(self.footsteps)} footsteps>"
 
 
 class Planner(Protocol):

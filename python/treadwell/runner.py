@@ -26,6 +26,7 @@ from treadwell.recording.trajectory import jumps
 from treadwell.recording.writers import NoWriters, Writers, open_viewer
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.overrides import Overrides
+from treadwell.scenario.values import flag
 from treadwell.scores import Scores, result_of
 from treadwell.shell_limits import RECORDED_RUN, tightness
 from treadwell.summary import html_table, result_line, result_rows, result_title
@@ -154,8 +155,7 @@ def run_episode(
         ShellLimitError: the shell allows too little memory for a recording.
     """
     made = episode.scenario
-    if not isinstance(record, bool):
-        raise InputError(f"record: found {record!r}; must be True or False")
+    record, view = flag("record", record), flag("view", view)
     if record and (tight := tightness(RECORDED_RUN)):
         raise ShellLimitError(f"the run cannot be recorded: {tight}; --no-record takes a third")
     viewer = open_viewer(episode) if view else None

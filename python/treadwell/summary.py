@@ -143,7 +143,11 @@ def _error(document: Mapping[str, Any]) -> str | None:
     localization = document.get("localization") or {}
     error = _number((localization.get("translation_error") or {}).get("mean"), "m", 3)
     lost = localization.get("lost_share", 0.0)
-    return f"{error}; lost in {lost:.0%} of the frames" if error and lost else error
+    return (
+        f"{error}; in {lost:.0%} of the frames it knew that it was lost"
+        if error and lost
+        else error
+    )
 
 
 def _number(value: float | None, unit: str, digits: int) -> str | None:

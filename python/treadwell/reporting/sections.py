@@ -132,7 +132,7 @@ def _facts(run: RunData) -> list[tuple[str, str]]:
     ]
     if result.localization is not None:
         mean, lost = result.localization.translation_error.mean, result.localization.lost_share
-        share = f"; lost in {lost:.0%} of the frames" if lost else ""
+        share = f"; in {lost:.0%} of the frames it knew that it was lost" if lost else ""
         facts.append(("localization error", f"{1e3 * mean:.1f} mm{share}"))
     if result.ablation:
         facts.append(("ablation", "the core was given the truth"))

@@ -4,9 +4,11 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
 from pydantic_core import PydanticCustomError
 
 from treadwell.components import parameter_names
+from treadwell.errors import InputError
 
 DEEPEST = 8
 LONGEST = 10_000
@@ -40,6 +42,17 @@ def check_parameters(value: object, where: tuple[str | int, ...]) -> None:
         raise PydanticCustomError(
             "parameters", "must be a number, a string, a boolean, a list or a table", {"at": where}
         )
+
+
+def flag(name: str, value: object) -> bool:
+    """Return an argument of Python's that is True or False; what is only like it may mean either.
+
+    Raises:
+        InputError: it is neither.
+    """
+    if not isinstance(value, bool | np.bool_):
+        raise InputError(f"{name}: found {value!r}; must be True or False")
+    return bool(value)
 
 
 def check_names(table: Mapping[str, Any], where: tuple[str, ...]) -> None:

@@ -10,6 +10,7 @@ from treadwell.errors import InputError
 from treadwell.recording.run_folder import sweep_folder
 from treadwell.scenario.messages import shown
 from treadwell.scenario.overrides import Overrides, plain_number
+from treadwell.scenario.values import flag
 from treadwell.sweeps.asked import Asked, care
 from treadwell.sweeps.conduct import Progress, conduct
 from treadwell.sweeps.engine import Engine, local_engine
@@ -132,7 +133,7 @@ def sweep(  # noqa: PLR0913 - one an option
     made = chosen_engine(engine, _whole("workers", workers, 1))
     limits = care(timeout, memory, _whole("keep", keep, 0) or 0)
     request = asked.request()
-    if not user_code:
+    if not flag("user_code", user_code):
         request.refuse_user_code()
     request.python()
     folder = sweep_folder(None if out is None else Path(out), asked.name)
