@@ -166,11 +166,14 @@ def test_the_tab_key_offers_the_library() -> None:
     assert treadwell.mapping is mapping
 
 
+@pytest.mark.parametrize("file", ["mine_alone.py", "mine_alone/planners.py"])
 def test_a_module_in_the_working_folder_is_pointed_to(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: str
 ) -> None:
-    (tmp_path / "mine_alone.py").write_text("class Mine: ...\n")
+    (tmp_path / file).parent.mkdir(exist_ok=True)
+    (tmp_path / file).write_text("class Mine: ...\n")
     monkeypatch.chdir(tmp_path)
-    message = r"^--set navigation.planner: .* mine_alone.py is here: with PYTHONPATH=\. it is found"
+    named = f"{file.removesuffix('.py').replace('/', '.')}:Mine"
+    message = r"^--set navigation.planner: .* mine_alone is here: with PYTHONPATH=\. it is found"
     with pytest.raises(InputError, match=message):
-        treadwell.Episode("open_floor", overrides=["navigation.planner=mine_alone:Mine"])
+        treadwell.Episode("open_floor", overrides=[f"navigation.planner={named}"])

@@ -52,8 +52,8 @@ def locate(module: str) -> Located:
         else:
             spec = getattr(loaded, "__spec__", None) or ModuleSpec(name, None)
         if spec is None:
-            here = Path(f"{name.partition('.')[0]}.py")
-            hint = f"; {here} is here: with PYTHONPATH=. it is found" if here.is_file() else ""
+            here = depth == 1 and (Path(f"{name}.py").is_file() or Path(name).is_dir())
+            hint = f"; {name} is here: with PYTHONPATH=. it is found" if here else ""
             raise InputError(f"there is no module {name} on Python's path{hint}")
         located = _located(name, spec)
     assert located is not None

@@ -7,7 +7,7 @@ What an installed package brings by a name is the choice of whoever installed it
 import difflib
 import importlib
 import inspect
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -235,10 +235,13 @@ def class_names(components: Mapping[str, object]) -> dict[str, str]:
 
 def _no_component(slot: str, name: str) -> str:
     names = known(slot)
-    near = difflib.get_close_matches(name, names, n=1)
-    hint = f"; did you mean {near[0]!r}?" if near else ""
     allowed = f"one of {', '.join(names)}, 'package.module:Class', a class or an object"
-    return f"{slot}: found {name!r}; must be {allowed}{hint}"
+    return f"{slot}: found {name!r}; must be {allowed}{_nearest(name, names)}"
+
+
+def _nearest(word: str, names: Iterable[str]) -> str:
+    near = difflib.get_close_matches(word, names, n=1)
+    return f"; did you mean {near[0]!r}?" if near else ""
 
 
 def brought(components: Mapping[str, object]) -> dict[str, object]:
@@ -257,8 +260,7 @@ def check_component(slot: str, component: object) -> None:
         InputError: the slot or a method does not exist.
     """
     if slot not in COMPONENTS:
-        near = difflib.get_close_matches(slot, COMPONENTS, n=1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
+        hint = _nearest(slot, COMPONENTS)
         raise InputError(f"{slot}: no such component; there are {', '.join(COMPONENTS)}{hint}")
     _check_methods(slot, component, type(component).__name__)
 

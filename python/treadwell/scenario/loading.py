@@ -197,7 +197,7 @@ def _apply(
 
     assign_all(sorted(early))
     if seed is not None:
-        raw["seed"] = seed if isinstance(seed, bool) else plain_number(seed)
+        raw["seed"] = plain_number(seed)
     drawn_from = raw.get("seed", 0)
     usable = isinstance(drawn_from, int) and not isinstance(drawn_from, bool)
     lines += apply_draws(raw, drawn_from if usable and 0 <= drawn_from < SEEDS else 0)
