@@ -97,7 +97,7 @@ impl PyLegs {
 
     /// `[gait]` with its defaults, as JSON.
     #[getter]
-    fn gait_json(&self, py: Python<'_>) -> PyResult<String> {
-        serde_json::to_string(&self.gait).map_err(|error| bad_setting(py, &error))
+    fn gait_json(&self) -> String {
+        settings::Setting::written(&self.gait).to_string()
     }
 }

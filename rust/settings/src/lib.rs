@@ -8,6 +8,7 @@ mod bounds;
 mod declaration;
 mod error;
 mod part;
+mod reading;
 mod scale;
 mod setting;
 mod table;
@@ -20,12 +21,14 @@ pub use bounds::{
 pub use error::require_fit;
 pub use error::{ConfigError, MakeError, require};
 pub use part::Part;
+#[doc(hidden)]
+pub use reading::{entries, unknown, value_of};
 pub use scale::Scale;
 #[doc(hidden)]
 pub use setting::words_of;
 pub use setting::{Owner, Parameter, Setting};
 #[doc(hidden)]
-pub use table::{Declared, describe, key_of};
+pub use table::{Declared, describe, key_of, table_within};
 pub use table::{Table, TableDescription, Tables, overlay, read};
 
 #[doc(hidden)]

@@ -1,9 +1,11 @@
 //! What can be the value of a setting, and what is known of one.
 
 use schemars::JsonSchema;
+use serde::de::Error as _;
 use serde_json::{Map, Value, json};
 
-use crate::{Bounds, ConfigError};
+use crate::reading::{not_read, value_of};
+use crate::{Bounds, ConfigError, MakeError};
 
 /// Whose a setting is that does not follow the robot's size, though its unit has a length or a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -45,7 +47,13 @@ pub struct Parameter {
 }
 
 /// A value that a setting can have: a number, a choice, a list of such, or a table of settings.
-pub trait Setting {
+pub trait Setting: Sized {
+    /// What was given for the setting `key`; of a table, over its default or that of its type.
+    fn over(default: Option<&Self>, given: &Value, key: &str) -> Result<Self, MakeError>;
+
+    /// The value as a user would write it.
+    fn written(&self) -> Value;
+
     /// Refuses what is outside the bounds, by its key.
     fn check(&self, key: &str, bounds: &Bounds) -> Result<(), ConfigError>;
 
@@ -66,6 +74,14 @@ pub trait Setting {
 macro_rules! numbers {
     ($kind:literal: $($number:ty),*) => {$(
         impl Setting for $number {
+            fn over(_: Option<&Self>, given: &Value, key: &str) -> Result<Self, MakeError> {
+                value_of(given, key)
+            }
+
+            fn written(&self) -> Value {
+                json!(self)
+            }
+
             fn check(&self, key: &str, bounds: &Bounds) -> Result<(), ConfigError> {
                 // As wide as every number here that a bound can name.
                 #[expect(clippy::allow_attributes, reason = "only some conversions are lossless")]
@@ -93,6 +109,14 @@ numbers!("number": f64, f32);
 numbers!("integer": u8, u16, u32, u64, usize, i32, i64);
 
 impl Setting for bool {
+    fn over(_: Option<&Self>, given: &Value, key: &str) -> Result<Self, MakeError> {
+        value_of(given, key)
+    }
+
+    fn written(&self) -> Value {
+        json!(self)
+    }
+
     fn check(&self, _: &str, _: &Bounds) -> Result<(), ConfigError> {
         Ok(())
     }
@@ -107,6 +131,17 @@ impl Setting for bool {
 }
 
 impl<T: Setting> Setting for Option<T> {
+    fn over(default: Option<&Self>, given: &Value, key: &str) -> Result<Self, MakeError> {
+        if given.is_null() {
+            return Ok(None);
+        }
+        T::over(default.and_then(Self::as_ref), given, key).map(Some)
+    }
+
+    fn written(&self) -> Value {
+        self.as_ref().map_or(Value::Null, T::written)
+    }
+
     fn check(&self, key: &str, bounds: &Bounds) -> Result<(), ConfigError> {
         self.as_ref()
             .map_or(Ok(()), |value| value.check(key, bounds))
@@ -122,6 +157,25 @@ impl<T: Setting> Setting for Option<T> {
 }
 
 impl<T: Setting, const N: usize> Setting for [T; N] {
+    fn over(_: Option<&Self>, given: &Value, key: &str) -> Result<Self, MakeError> {
+        let given: Vec<Value> = value_of(given, key)?;
+        let numbered = given.iter().enumerate();
+        let read: Vec<T> = numbered
+            .map(|(index, value)| T::over(None, value, &format!("{key}[{index}]")))
+            .collect::<Result<_, _>>()?;
+        let expected = format!("an array of length {N}");
+        Self::try_from(read).map_err(|read| {
+            not_read(
+                key,
+                &serde_json::Error::invalid_length(read.len(), &expected.as_str()),
+            )
+        })
+    }
+
+    fn written(&self) -> Value {
+        self.iter().map(T::written).collect()
+    }
+
     fn check(&self, key: &str, bounds: &Bounds) -> Result<(), ConfigError> {
         let mut numbered = self.iter().enumerate();
         numbered.try_for_each(|(index, value)| value.check(&format!("{key}.{index}"), bounds))
@@ -161,6 +215,18 @@ pub fn words_of<T: JsonSchema>() -> (Value, Vec<String>) {
 macro_rules! choices {
     ($($choice:ty),* $(,)?) => {$(
         impl $crate::Setting for $choice {
+            fn over(
+                _: Option<&Self>,
+                given: &$crate::serde_json::Value,
+                key: &str,
+            ) -> Result<Self, $crate::MakeError> {
+                $crate::value_of(given, key)
+            }
+
+            fn written(&self) -> $crate::serde_json::Value {
+                $crate::serde_json::json!(self)
+            }
+
             fn check(&self, _: &str, _: &$crate::Bounds) -> Result<(), $crate::ConfigError> {
                 Ok(())
             }

@@ -2,15 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use serde::de::{Deserialize as _, Deserializer, Error as _};
 use serde_json::{Map, Value, json};
 
 use crate::scale;
 use crate::{Bounds, ConfigError, MakeError, Owner, Parameter, Scale, Setting};
 
 /// A struct whose fields are settings. Declared by [`crate::settings!`].
-pub trait Table: Serialize + DeserializeOwned + Default {
+pub trait Table: Setting + Default {
     /// Where it stands, as in `navigation.fog`.
     const KEY: &'static str;
     /// What the table is for.
@@ -21,6 +20,11 @@ pub trait Table: Serialize + DeserializeOwned + Default {
 
     /// The settings of the table `key` with its values for defaults, tables within it included.
     fn parameters_as(&self, key: &str) -> Vec<Parameter>;
+
+    /// What was given for the table `key`, over the defaults.
+    fn read_as(key: &str, given: &Value) -> Result<Self, MakeError> {
+        Self::over(None, given, key)
+    }
 
     /// Refuses what cannot be used.
     fn check(&self) -> Result<(), ConfigError> {
@@ -56,7 +60,7 @@ impl TableDescription {
             key,
             about: T::ABOUT,
             list: |key| T::default().parameters_as(key),
-            check: |key, given| Ok(over_defaults::<T>(given, key)?.check_as(key)?),
+            check: |key, given| Ok(T::read_as(key, given)?.check_as(key)?),
         }
     }
 
@@ -111,44 +115,18 @@ fn object(about: &str) -> Value {
 pub type Tables = BTreeMap<String, Value>;
 
 /// Reads the table `[navigation.<name>]`. What it does not say has its default, in tables within it too.
-pub fn read<T: DeserializeOwned + Serialize + Default>(
-    tables: &Tables,
-    name: &str,
-) -> Result<T, MakeError> {
+pub fn read<T: Table>(tables: &Tables, name: &str) -> Result<T, MakeError> {
     tables.get(name).map_or_else(
         || Ok(T::default()),
-        |given| over_defaults(given, &format!("navigation.{name}")),
+        |given| T::read_as(&format!("navigation.{name}"), given),
     )
 }
 
-/// The settings of the table `key` that were given, over its defaults.
-fn over_defaults<T: DeserializeOwned + Serialize + Default>(
-    given: &Value,
-    key: &str,
-) -> Result<T, MakeError> {
-    let refused =
-        |at: &str, error: &dyn std::fmt::Display| MakeError::Text(format!("{key}{at}: {error}"));
-    let mut settings = serde_json::to_value(T::default()).map_err(|error| refused("", &error))?;
-    overlay(&mut settings, given);
-    serde_path_to_error::deserialize(settings).map_err(|error| {
-        let at = match error.path().to_string().as_str() {
-            "." => String::new(),
-            path => format!(".{path}"),
-        };
-        refused(&at, &in_words(&error.inner().to_string()))
-    })
-}
-
-/// What was expected, in words of who writes settings and not of the code that reads them.
-fn in_words(said: &str) -> String {
-    let (whole, number) = ("expected a whole number", "expected a number");
-    let names = ["usize", "u64", "u32", "u16", "u8", "i64", "i32"];
-    let whole_said = names.iter().fold(said.to_owned(), |said, name| {
-        said.replace(&format!("expected {name}"), whole)
-    });
-    ["f64", "f32"].iter().fold(whole_said, |said, name| {
-        said.replace(&format!("expected {name}"), number)
-    })
+/// Reads a table for `serde`.
+#[doc(hidden)]
+pub fn table_within<'de, T: Table, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+    let given = Value::deserialize(deserializer)?;
+    T::read_as(T::KEY, &given).map_err(D::Error::custom)
 }
 
 /// Puts `given` over `settings`, key by key where both are tables.
@@ -189,7 +167,7 @@ pub struct Declared {
 
 /// Puts what is known of a setting, or of all those of a table within the table, to a list.
 #[doc(hidden)]
-pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, as_is: Declared) {
+pub fn describe<T: Setting>(all: &mut Vec<Parameter>, default: &T, as_is: Declared) {
     let Declared {
         key,
         unit,
@@ -203,7 +181,7 @@ pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, a
         return;
     }
     let meaning = meaning.split_whitespace().collect::<Vec<_>>().join(" ");
-    let default = as_written(json!(default));
+    let default = as_written(default.written());
     let mut schema = T::schema(&bounds);
     schema["description"] = json!(meaning);
     schema["default"] = default.clone();

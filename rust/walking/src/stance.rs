@@ -3,7 +3,6 @@
 use geometry::{GRAVITY_MPS2, PlanarPose};
 use nalgebra::Vector3;
 use robot::{Body, LinkPoses, Side};
-use serde::Deserialize;
 use settings::{Table, TableDescription, overlay};
 
 use crate::ankle_bend::toes_up_rad;
@@ -69,7 +68,7 @@ impl GaitConfig {
             overlay(&mut sized, table);
         }
         let mut config =
-            Self::deserialize(&sized).map_err(|error| WalkError::Form(error.to_string()))?;
+            Self::read_as(Self::KEY, &sized).map_err(|error| WalkError::Form(error.to_string()))?;
         config.tuning.check()?;
         let stance = UprightStance::upright(body, &config.tuning.leg)?;
         if table.get("stance_width").is_none() {
