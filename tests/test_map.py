@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from source_builders import data, needs_data
 
 from treadwell.cli.app import execute
+from treadwell.components import COMPONENTS
 from treadwell.errors import InputError
 from treadwell.exports.export import export
 from treadwell.map_making.making import MadeMap, make_map
@@ -147,6 +148,28 @@ def test_coordinates_of_millions_of_metres_keep_their_millimetres(tmp_path: Path
         np.testing.assert_allclose(made.map.height[here], height, atol=0.002)
 
 
+OF_PICTURES = {"fog", "octree"}
+
+
+def landscape(folder: Path) -> Path:
+    """Write a cloud of which the points lie 0.3 m apart."""
+    x, y = (axis.ravel() for axis in np.meshgrid(*2 * [np.arange(-12.0, 12.0, 0.3)]))
+    points = np.column_stack([x, y, 0.0 * x])
+    path = folder / "landscape.ply"
+    axes = "\n".join(f"property float {axis}" for axis in "xyz")
+    header = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n{axes}\nend_header"
+    np.savetxt(path, points, header=header, comments="")
+    return path
+
+
+@pytest.mark.parametrize("world_model", sorted({*COMPONENTS["world_model"]} - OF_PICTURES))
+def test_the_cells_of_every_world_model_are_as_large_as_points_lie_apart(
+    tmp_path: Path, world_model: str
+) -> None:
+    made = mapped(landscape(tmp_path), tmp_path / "map", world_model=world_model)
+    assert made.map.cell >= 0.3
+
+
 PEAK_OF = """
 import resource, subprocess, sys
 subprocess.run(sys.argv[1:], check=True)
@@ -275,14 +298,13 @@ def test_without_one_frame_that_can_be_used_there_is_no_folder(
     assert not (tmp_path / "map").exists()
 
 
-def test_a_cloud_is_no_use_to_a_model_that_finds_floors_in_pictures(tmp_path: Path) -> None:
-    path = tmp_path / "cloud.ply"
-    path.write_text(
-        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
-        "property float z\nend_header\n0 0 0\n1 1 0\n"
-    )
+@pytest.mark.parametrize("world_model", sorted(OF_PICTURES))
+def test_a_cloud_is_no_use_to_a_model_that_finds_floors_in_pictures(
+    tmp_path: Path, world_model: str
+) -> None:
+    path = landscape(tmp_path)
     with pytest.raises(InputError, match="finds its floors in pictures"):
-        mapped(path, tmp_path / "map", world_model="fog")
+        mapped(path, tmp_path / "map", world_model=world_model)
 
 
 @needs_data

@@ -5,21 +5,11 @@ from typing import Any, Final
 
 import numpy as np
 
+from treadwell.components import TABLES
 from treadwell.map_making.placing import Placing, sensed
 from treadwell.reference.parameters import all_tables
 from treadwell.sources.frame import Floats, PinholeCamera, RangeFrame
 
-_TABLES: Final = {
-    "fog": "fog",
-    "octree": "fog",
-    "averaging": "averaging",
-    "elevation": "elevation",
-    "extended_elevation": "elevation",
-    "multi_level": "elevation",
-    "points": "elevation",
-    "occupancy_2d": "occupancy_2d",
-}
-"""World model -> the table that has its cells."""
 _COUNTS: Final = {"fog": "cells", "averaging": "cells", "elevation": "window"}
 """Table -> the key with the number of cells along a side of the window, where it has one."""
 _SCAN_CELL_M: Final = 0.05
@@ -77,7 +67,7 @@ def sizing(
         ground: `auto`, `filter` or `all`.
     """
     first, placing = seen
-    table = _TABLES.get(world_model)
+    table = _table_with_cells(world_model)
     made = {key: dict(values) for key, values in parameters.items()}
     if table is None or first.layout == "scan":
         return Sizing(float(made.get(table or "", {}).get("cell", _SCAN_CELL_M)), made)
@@ -93,8 +83,8 @@ def sizing(
         ground == "filter" or (ground == "auto" and apart)
     )
     follow = _following(found, defaults, reach, _COUNTS.get(table, "window"))
-    if table == "occupancy_2d":
-        _set_aside(found, "depth_slice", follow)
+    for other in sorted(TABLES["world_model"][world_model] - {table}):
+        _set_aside(found, other, {**follow, "resolution": found.cell})
     for key, value in follow.items():
         if key in defaults and key not in own and value != defaults[key]:
             own[key] = value
@@ -105,6 +95,12 @@ def sizing(
 def pooled(camera: PinholeCamera, columns: int) -> int:
     """Return how many pixels a side are one, for a picture of so many columns at most."""
     return max(1, -(-camera.width // columns))
+
+
+def _table_with_cells(world_model: str) -> str | None:
+    """Return the table of a world model that has the side of its cells; None where none has."""
+    tables = sorted(TABLES["world_model"].get(world_model, ()))
+    return next((table for table in tables if "cell" in _defaults(table)), None)
 
 
 def _set_aside(found: Sizing, table: str, follow: dict[str, Any]) -> None:
