@@ -149,6 +149,8 @@ pub enum Refusal {
     TooNarrow,
     /// Steps lead there, but one is too high.
     StepTooHigh,
+    /// What is to be stepped on is so low that it is floor.
+    StepTooLow,
     /// Steps lead there, but one is too short for a sole.
     TreadTooShort,
     /// The ground between a way down and a way up is too short for a sole.
@@ -169,6 +171,7 @@ impl Refusal {
             Self::TooLow => "too_low",
             Self::TooNarrow => "too_narrow",
             Self::StepTooHigh => "step_too_high",
+            Self::StepTooLow => "step_too_low",
             Self::TreadTooShort => "tread_too_short",
             Self::GapTooShort => "gap_too_short",
             Self::TooSteep => "too_steep",

@@ -43,61 +43,19 @@ impl NoWay {
 
 /// The word and sentence for a step that is not taken.
 fn unfit((climbing, tuning): Words<'_>, limit: Unfit) -> NoWay {
-    let mm = |length_m: f64| (1e3 * length_m.abs()).round();
-    let (refusal, sentence) = match limit {
-        Unfit::TooHigh(rise_m) if rise_m < -tuning.drop => (
-            Refusal::Drop,
-            format!(
-                "it goes down {} mm, {} mm is the limit",
-                mm(rise_m),
-                mm(climbing.descend.step_min_z)
-            ),
-        ),
-        Unfit::TooHigh(rise_m) => {
-            let up = rise_m > 0.0;
-            let limit_m = if up {
-                climbing.ascend.step_max_z
-            } else {
-                climbing.descend.step_min_z
-            };
-            let way = if up { "" } else { " down" };
-            let sentence = format!(
-                "the step{way} is {} mm high, {} mm is the limit",
-                mm(rise_m),
-                mm(limit_m)
-            );
-            (Refusal::StepTooHigh, sentence)
+    let refusal = match limit {
+        Unfit::TooHigh(rise_m) if rise_m < -tuning.drop => {
+            let (deep, limit) = (-1e3 * rise_m, -1e3 * climbing.descend.step_min_z);
+            let sentence = format!("it goes down {deep:.0} mm, {limit:.0} mm is the limit");
+            return NoWay::new(Refusal::Drop, sentence);
         }
-        Unfit::TooLow(rise_m) => (
-            Refusal::NoPath,
-            format!("what is {} mm high is floor and no step", mm(rise_m)),
-        ),
-        Unfit::TreadTooShort(depth_m, needed_m) => (
-            Refusal::TreadTooShort,
-            format!(
-                "the tread is {} mm deep, {} mm is needed",
-                mm(depth_m),
-                mm(needed_m)
-            ),
-        ),
-        Unfit::GapTooShort(depth_m, needed_m) => (
-            Refusal::GapTooShort,
-            format!(
-                "the basin is {} mm deep, {} mm is needed",
-                mm(depth_m),
-                mm(needed_m)
-            ),
-        ),
-        Unfit::TooNarrow(width_m, needed_m) => (
-            Refusal::TooNarrow,
-            format!(
-                "the stair is {} mm wide, {} mm is needed",
-                mm(width_m),
-                mm(needed_m)
-            ),
-        ),
+        Unfit::TooHigh(_) => Refusal::StepTooHigh,
+        Unfit::TooLow(_) => Refusal::StepTooLow,
+        Unfit::TreadTooShort(..) => Refusal::TreadTooShort,
+        Unfit::GapTooShort(..) => Refusal::GapTooShort,
+        Unfit::TooNarrow(..) => Refusal::TooNarrow,
     };
-    NoWay::new(refusal, sentence)
+    NoWay::new(refusal, limit.sentence(climbing))
 }
 
 /// Explains why the robot finds no way from `start`.

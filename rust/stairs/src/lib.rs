@@ -16,7 +16,8 @@ mod tests;
 
 pub use climbing::conditions::{Ahead, Stand, Tolerance, Unready, conditions};
 pub use climbing::config::{ClimbingConfig, ClimbingTuning, LevelsConfig, ParameterSet};
-pub use climbing::footing::{Feet, Footing, Onward, Unfit};
+pub use climbing::footing::{Feet, Footing, Onward};
+pub use climbing::unfit::Unfit;
 pub use config::{
     BevelMemoryTuning, BevelTuning, BorderTuning, CoarseTuning, EdgeModelTuning, EdgesTuning,
     ExcerptTuning, FitsTuning, FrameTuning, FusionTuning, JointsTuning, LinesTuning, MemoryTuning,

@@ -137,7 +137,10 @@ impl StairClimbing {
                     1e3 * depth_m
                 )
             }),
-            Verdict::Refuse(unfit) => self.look_again(tick, || reason(&unfit)),
+            Verdict::Refuse(unfit) => {
+                let reason = reason(&self.climbing, &unfit);
+                self.look_again(tick, || reason);
+            }
         }
     }
 

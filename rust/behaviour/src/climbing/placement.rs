@@ -235,31 +235,8 @@ fn half_turn_rad(from_rad: f64, to_rad: f64, tuning: &PlacementTuning) -> f64 {
 }
 
 /// The refusal of a step, with figures.
-pub(crate) fn reason(unfit: &Unfit) -> String {
-    let mm = |value_m: f64| 1e3 * value_m;
-    match *unfit {
-        Unfit::TooLow(rise_m) => {
-            format!("step_too_low: the next step is {:.0} mm high", mm(rise_m))
-        }
-        Unfit::TooHigh(rise_m) => {
-            format!("step_too_high: the next step is {:.0} mm high", mm(rise_m))
-        }
-        Unfit::TreadTooShort(depth_m, needed_m) => format!(
-            "tread_too_short: the next step is {:.0} mm deep, {:.0} mm are needed",
-            mm(depth_m),
-            mm(needed_m)
-        ),
-        Unfit::GapTooShort(depth_m, needed_m) => format!(
-            "gap_too_short: the ground below is {:.0} mm deep, {:.0} mm are needed",
-            mm(depth_m),
-            mm(needed_m)
-        ),
-        Unfit::TooNarrow(width_m, needed_m) => format!(
-            "too_narrow: the next step is {:.0} mm wide, {:.0} mm are needed",
-            mm(width_m),
-            mm(needed_m)
-        ),
-    }
+pub(crate) fn reason(climbing: &ClimbingConfig, unfit: &Unfit) -> String {
+    format!("{}: {}", unfit.word(), unfit.sentence(climbing))
 }
 
 #[cfg(test)]

@@ -103,11 +103,7 @@ mod tests {
             Unready::NotAligned(_) => "not_aligned",
             Unready::NoRoomLeft(..) => "no_room_left",
             Unready::NoRoomRight(..) => "no_room_right",
-            Unready::Unfit(Unfit::TooLow(_)) => "step_too_low",
-            Unready::Unfit(Unfit::TooHigh(_)) => "step_too_high",
-            Unready::Unfit(Unfit::TreadTooShort(..)) => "tread_too_short",
-            Unready::Unfit(Unfit::GapTooShort(..)) => "gap_too_short",
-            Unready::Unfit(Unfit::TooNarrow(..)) => "too_narrow",
+            Unready::Unfit(unfit) => unfit.word(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Whether and where both feet fit on a stair (003, section V.C, Fig. 9).
 
-use crate::ClimbingConfig;
+use crate::{ClimbingConfig, Unfit};
 
 /// The feet of a robot, side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,21 +32,6 @@ pub enum Onward {
 pub struct Footing {
     /// The heels' place beyond the front edge, m.
     pub heel_m: f64,
-}
-
-/// Why a stair is not stepped on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Unfit {
-    /// The change of height is none: floor, m. All that is more is climbed as a step.
-    TooLow(f64),
-    /// The change of height is too large, m.
-    TooHigh(f64),
-    /// The tread is too short for a sole: its depth and what is needed, m.
-    TreadTooShort(f64, f64),
-    /// The ground between a way down and a way up is too short: its depth and what is needed, m.
-    GapTooShort(f64, f64),
-    /// The stair is too narrow for both feet: its width and what is needed, m.
-    TooNarrow(f64, f64),
 }
 
 impl Footing {

@@ -3,3 +3,4 @@
 pub(crate) mod conditions;
 pub(crate) mod config;
 pub(crate) mod footing;
+pub(crate) mod unfit;

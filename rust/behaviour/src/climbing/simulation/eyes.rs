@@ -1,8 +1,8 @@
 //! What is seen of the stairs, and the plan that follows from it.
 
 use geometry::PlanarPose;
-use planning::{Climb, NoWay, Path, Plan, Refusal, Step};
-use stairs::{ClimbingConfig, EdgeFit, Footing, Onward, Stair, Unfit};
+use planning::{AStarConfig, Climb, NoWay, Path, Plan, Refusal, Step};
+use stairs::{ClimbingConfig, EdgeFit, Footing, Onward, Stair};
 
 use crate::climbing::simulation::{FEET, Simulation};
 
@@ -139,14 +139,7 @@ fn check(steps: &[Step]) -> Result<(), NoWay> {
             });
         let width_m = step.stair.front.length_m();
         if let Err(unfit) = Footing::on_stair(&config, &FEET, step.rise_m, width_m, onward) {
-            let refusal = match unfit {
-                Unfit::TooLow(_) => Refusal::NoPath,
-                Unfit::TooHigh(_) => Refusal::StepTooHigh,
-                Unfit::TreadTooShort(..) => Refusal::TreadTooShort,
-                Unfit::GapTooShort(..) => Refusal::GapTooShort,
-                Unfit::TooNarrow(..) => Refusal::TooNarrow,
-            };
-            return Err(NoWay::new(refusal, "as measured".to_owned()));
+            return Err(NoWay::unfit(&config, &AStarConfig::default(), unfit));
         }
     }
     Ok(())
