@@ -89,6 +89,23 @@ def test_every_python_package_comes_from_the_registry_with_its_hash() -> None:
     assert [name for name, listed in files.items() if not all("hash" in f for f in listed)] == []
 
 
+def features(*of: str) -> dict[str, str]:
+    """Crate and version -> the features that it is built with."""
+    asked = ["cargo", "tree", "--locked", "--offline", "--prefix", "none", "--format", "{p}|{f}"]
+    done = subprocess.run([*asked, *of], cwd=ROOT, capture_output=True, text=True, check=True)
+    rows = (line.removesuffix(" (*)").partition("|") for line in done.stdout.splitlines())
+    return {crate.partition(" (")[0]: found for crate, _, found in rows}
+
+
+def test_package_and_tests_are_built_of_the_same_crates() -> None:
+    """One feature that only tests switch on, and all that stands on it is compiled twice."""
+    package = features("--package", "bindings", "--edges", "normal,build")
+    tests = features("--workspace", "--exclude", "bindings", "--edges", "normal,build,dev")
+    both = package.keys() & tests.keys()
+    assert len(both) > 50
+    assert {crate: package[crate] for crate in both} == {crate: tests[crate] for crate in both}
+
+
 @pytest.mark.skipif(shutil.which("cargo-deny") is None, reason="cargo-deny is not installed")
 def test_cargo_deny_says_so_too() -> None:
     asked = ["cargo", "deny", "--offline", "check", "licenses", "bans", "sources"]
