@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from treadwell.judging.verdict import STANDING_SECONDS, Referee, Verdict
+from treadwell.judging.verdict import SETTLING_SECONDS, Referee, Verdict
 
 
 @dataclass
@@ -66,8 +66,8 @@ def test_a_declaration_waits_for_the_robot_to_stand_and_not_for_ever() -> None:
     seen: Any = Seen(standing_still=False)
     referee = Referee(seen, 60.0)
     assert referee.decide(seen, 2.0, "goal_reached", None) is None
-    assert referee.decide(seen, 2.0 + STANDING_SECONDS - 0.01, "goal_reached", None) is None
-    found = referee.decide(seen, 2.0 + STANDING_SECONDS, "goal_reached", None)
+    assert referee.decide(seen, 2.0 + SETTLING_SECONDS - 0.01, "goal_reached", None) is None
+    found = referee.decide(seen, 2.0 + SETTLING_SECONDS, "goal_reached", None)
     assert found is not None
     assert found.outcome == "stuck"
     assert found.reason is not None

@@ -18,6 +18,7 @@ FALLEN_TILT = 0.8
 UPRIGHT_SECONDS = 1.0
 """For so long nothing of a fall must be seen before another one can count."""
 STILL_SECONDS = 1.0
+"""For so long both soles must carry and lie where they are for the robot to stand still."""
 STILL_DRIFT = 0.01
 """Metres by which a sole of a robot of scale 1 may drift while the robot stands still."""
 STILL_TURN = 0.05
@@ -27,10 +28,9 @@ GOAL_HEIGHT_TOLERANCE = 0.02
 STUCK_SECONDS = 30.0
 """Of a robot of scale 1; a larger one, which takes longer for all it does, has longer."""
 STUCK_RADIUS = 0.1
-"""Metres: a robot of scale 1 that has not left a disc of this radius for `STUCK_SECONDS` is stuck,
-unless"""
+"""Metres: a robot of scale 1 that does not leave a disc of this radius for so long is stuck."""
 STUCK_TURN = 0.5
-"""it has turned by this, rad: one that looks around is not."""
+"""Rad: one that has turned by this meanwhile looks around, and is not stuck."""
 PATH_SPACING = 0.03
 """Metres between the points of which the path's length is made; sways smaller than it vanish, of a
 robot of scale 1."""

@@ -7,7 +7,7 @@ import mujoco
 from treadwell.judging.judge import Judge
 from treadwell.judging.result import Outcome
 
-STANDING_SECONDS = 5.0
+SETTLING_SECONDS = 5.0
 """Seconds after a declaration within which a robot of scale 1 has to stand still."""
 
 
@@ -36,7 +36,7 @@ class Referee:
             patience: how much longer than a robot of scale 1 this one may take to come to a stand.
         """
         self._judge = judge
-        self._standing_seconds = STANDING_SECONDS * patience
+        self._settling_seconds = SETTLING_SECONDS * patience
         self._time_limit = time_limit
         self._declared: tuple[str, str | None, float] | None = None
 
@@ -69,7 +69,7 @@ class Referee:
     ) -> Verdict | None:
         judge = self._judge
         if not judge.standing_still:
-            if time_s - since < self._standing_seconds:
+            if time_s - since < self._settling_seconds:
                 return None
             return Verdict("stuck", "unsteady: the robot declared an end and did not stand still")
         if outcome == "refused":

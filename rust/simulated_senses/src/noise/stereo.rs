@@ -37,7 +37,7 @@ pub struct StereoErrors {
     rows: StereoRows,
 }
 
-/// StereoRows that are made anew for each row of the picture, and the last ones of those that windows are summed over.
+/// Rows that are made anew for each row of the picture, and the last ones of those that windows are summed over.
 #[derive(Debug, Clone)]
 struct StereoRows {
     /// The whole picture's, px.
