@@ -195,6 +195,14 @@ def test_a_cloud_of_ten_million_points_takes_two_gigabytes_at_most(tmp_path: Pat
     assert cells["floor"] > 0.99 * (100 / 0.2) ** 2
 
 
+@pytest.mark.parametrize(("cell", "voxel"), [(0.08, None), (0.05, 0.05)])
+def test_voxels_stay_as_they_are_where_cells_are_whole_numbers_of_them(
+    pictures: Path, tmp_path: Path, cell: float, voxel: float | None
+) -> None:
+    made = mapped(pictures, tmp_path / "map", f"fog.cell={cell}", world_model="octree")
+    assert made.result.assumed.get("navigation.octree.resolution") == voxel
+
+
 def test_the_axis_that_points_up_is_told_and_turned(
     pictures: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

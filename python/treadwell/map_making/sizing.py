@@ -22,6 +22,8 @@ ALTITUDE: Final = 10.0
 _MOST_CELLS: Final = 2000
 _POINTS_APART: Final = 1.5
 """Side of a cell, in distances between a cloud's points, at which most cells have one."""
+_WHOLE: Final = 1e-6
+"""By so much of a voxel a cell may miss a whole number of them."""
 _REACH: Final = 99.5
 """Percentile of the points' distances that the window reaches."""
 
@@ -84,7 +86,7 @@ def sizing(
     )
     follow = _following(found, defaults, reach, _COUNTS.get(table, "window"))
     for other in sorted(TABLES["world_model"][world_model] - {table}):
-        _set_aside(found, other, {**follow, "resolution": found.cell})
+        _set_aside(found, other, {**follow, **_resolution(other, found.cell)})
     for key, value in follow.items():
         if key in defaults and key not in own and value != defaults[key]:
             own[key] = value
@@ -101,6 +103,16 @@ def _table_with_cells(world_model: str) -> str | None:
     """Return the table of a world model that has the side of its cells; None where none has."""
     tables = sorted(TABLES["world_model"].get(world_model, ()))
     return next((table for table in tables if "cell" in _defaults(table)), None)
+
+
+def _resolution(table: str, cell: float) -> dict[str, float]:
+    """Return the side of a table's voxels that fits such cells: its default, or that of a cell."""
+    voxel = _defaults(table).get("resolution")
+    if voxel is None:
+        return {}
+    parts = cell / voxel
+    fits = round(parts) >= 1 and abs(parts - round(parts)) < _WHOLE
+    return {"resolution": voxel if fits else cell}
 
 
 def _set_aside(found: Sizing, table: str, follow: dict[str, Any]) -> None:
