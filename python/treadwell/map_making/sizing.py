@@ -1,5 +1,6 @@
 """What a world model's settings are where the user left them and the data asks for others."""
 
+from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -12,6 +13,8 @@ from treadwell.sources.frame import Floats, PinholeCamera, RangeFrame
 
 _COUNTS: Final = {"fog": "cells", "averaging": "cells", "elevation": "window"}
 """Table -> the key with the number of cells along a side of the window, where it has one."""
+_FUSED: Final = "fusion.voxel"
+"""The key of the voxels in which the frames of a mesh are fused."""
 _SCAN_CELL_M: Final = 0.05
 """Side of the cells in which a laser's points are shown, where nobody says."""
 _ROBOT_M: Final = 0.25
@@ -70,7 +73,7 @@ def sizing(
     """
     first, placing = seen
     table = _table_with_cells(world_model)
-    made = {key: dict(values) for key, values in parameters.items()}
+    made = {key: deepcopy(values) for key, values in parameters.items()}
     if table is None or first.layout == "scan":
         return Sizing(float(made.get(table or "", {}).get("cell", _SCAN_CELL_M)), made)
     own = made.setdefault(table, {})
@@ -85,8 +88,9 @@ def sizing(
         ground == "filter" or (ground == "auto" and apart)
     )
     follow = _following(found, defaults, reach, _COUNTS.get(table, "window"))
+    scale = _scale(found.cell, defaults)
     for other in sorted(TABLES["world_model"][world_model] - {table}):
-        _set_aside(found, other, {**follow, **_resolution(other, found.cell)})
+        _set_aside(found, other, {**follow, **_voxels(other, found.cell, scale)})
     for key, value in follow.items():
         if key in defaults and key not in own and value != defaults[key]:
             own[key] = value
@@ -105,9 +109,21 @@ def _table_with_cells(world_model: str) -> str | None:
     return next((table for table in tables if "cell" in _defaults(table)), None)
 
 
-def _resolution(table: str, cell: float) -> dict[str, float]:
-    """Return the side of a table's voxels that fits such cells: its default, or that of a cell."""
-    voxel = _defaults(table).get("resolution")
+def _voxels(table: str, cell: float, scale: float) -> dict[str, float]:
+    """Return the side of a table's voxels that goes with such cells, under the table's own key.
+
+    An octree's is its default where cells are whole numbers of it, or that of a cell; the voxels of
+    which a mesh is read grow as the cells do: between points so far apart nothing finer is known.
+
+    Args:
+        table: its name.
+        cell: m, side of the map's cells.
+        scale: how much larger they are than they are by default.
+    """
+    defaults = _defaults(table)
+    if _FUSED in defaults:
+        return {_FUSED: round(defaults[_FUSED] * scale, 6)}
+    voxel = defaults.get("resolution")
     if voxel is None:
         return {}
     parts = cell / voxel
@@ -118,10 +134,14 @@ def _resolution(table: str, cell: float) -> dict[str, float]:
 def _set_aside(found: Sizing, table: str, follow: dict[str, Any]) -> None:
     """Put what follows into a second table of the model, as far as it has the keys."""
     own, defaults = found.parameters.setdefault(table, {}), _defaults(table)
-    for key in set(follow) & set(defaults) - set(own):
-        if follow[key] != defaults[key]:
-            own[key] = follow[key]
-            found.assumed[f"navigation.{table}.{key}"] = follow[key]
+    for path in set(follow) & set(defaults):
+        *groups, key = path.split(".")
+        place = own
+        for group in groups:
+            place = place.setdefault(group, {})
+        if key not in place and follow[path] != defaults[path]:
+            place[key] = follow[path]
+            found.assumed[f"navigation.{table}.{path}"] = follow[path]
 
 
 def _cell(own: dict[str, Any], default: float, reach: float, spacing: float) -> float:
@@ -134,9 +154,14 @@ def _cell(own: dict[str, Any], default: float, reach: float, spacing: float) -> 
     return _round(2.0 * reach / _MOST_CELLS, up=True) if 2.0 * reach > cell * _MOST_CELLS else cell
 
 
+def _scale(cell: float, defaults: dict[str, Any]) -> float:
+    """Return how much larger cells are than they are by default; 1 where they are smaller."""
+    return max(1.0, cell / float(defaults["cell"]))
+
+
 def _following(found: Sizing, defaults: dict[str, Any], reach: float, count: str) -> dict[str, Any]:
     """Return key -> value of what follows from cell, reach and eye."""
-    scale = max(1.0, found.cell / defaults["cell"])
+    scale = _scale(found.cell, defaults)
     cells = min(int(np.ceil(2.0 * reach / found.cell)) + 4, _MOST_CELLS)
     far = 2.0 * max(reach, found.altitude)
     values: dict[str, Any] = {
@@ -178,6 +203,7 @@ def _round(value: float, *, up: bool = False) -> float:
 
 
 def _defaults(table: str) -> dict[str, Any]:
-    """Return key -> default of a table of `[navigation]`."""
-    rows = next(one.parameters for one in all_tables() if one.key == f"navigation.{table}")
-    return {row.key.rpartition(".")[2]: row.default for row in rows}
+    """Return key -> default of a table of `[navigation]`; keys of a table in it with its name."""
+    name = f"navigation.{table}"
+    rows = next(one.parameters for one in all_tables() if one.key == name)
+    return {row.key.removeprefix(f"{name}."): row.default for row in rows}
