@@ -26,6 +26,8 @@ from treadwell.scenario.loading import load_scenario, scenario_names
 from treadwell.scenario.model import Scenario
 
 ROBOT = load_robot("qrio")
+DRAWN = {"scatter", "house", "yard", "flights", "vegetation", "rubble", "slabs", "terrain"}
+"""Kinds that another seed makes another course."""
 
 
 def scenario_of(*course: dict[str, Any], **tables: object) -> Scenario:
@@ -53,8 +55,9 @@ def ray_height(course: Course, x: float, y: float) -> float:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", scenario_names())
-def test_every_shipped_scenario_can_be_built_for_twenty_seeds(name: str) -> None:
-    for seed in range(20):
+def test_every_shipped_scenario_can_be_built_for_many_seeds(name: str) -> None:
+    draws = any(element.kind in DRAWN for element in load_scenario(name).course)
+    for seed in range(20 if draws else 5):
         assert build_course(load_scenario(name, seed=seed), ROBOT).model.ngeom > 0
 
 

@@ -46,7 +46,7 @@ def test_the_same_after_another_episode(first: Path, tmp_path: Path) -> None:
     assert same_files(tmp_path / "run", first)
 
 
-@pytest.mark.parametrize("threads", ["1", "7"])
+@pytest.mark.parametrize("threads", [pytest.param("1", marks=pytest.mark.long), "7"])
 def test_the_same_in_another_process_with_other_threads_and_hashes(
     first: Path, tmp_path: Path, threads: str
 ) -> None:

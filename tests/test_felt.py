@@ -25,6 +25,7 @@ def test_a_cable_on_an_open_floor_is_walked_around_after_a_foot_met_it(tmp_path:
     assert (came.outcome, came.reason, came.falls) == ("goal_reached", None, 0)
 
 
+@pytest.mark.long
 def test_a_cable_across_a_corridor_is_refused_with_where_a_foot_met_it(tmp_path: Path) -> None:
     came = result(tmp_path, cable_across())
     assert (came.outcome, came.falls) == ("refused", 0)

@@ -1,6 +1,7 @@
 """Room for the head: desks, lintels, ceilings and lamps, closed loop with all noise on."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -10,6 +11,11 @@ from treadwell.experiments.world.parts import Part, box, corridor, desk, flight,
 from treadwell.judging.result import Result
 
 pytestmark = pytest.mark.scenario
+
+
+def again(base: float, depth: float) -> Any:  # noqa: ANN401 - pytest's own
+    """A ceiling that is left to `make test-long`: its height and depth, m."""
+    return pytest.param(base, depth, marks=pytest.mark.long)
 
 
 def ends(folder: Path, *course: Part, height: float | None = None) -> Result:
@@ -45,7 +51,7 @@ def test_a_lamp_of_10_cm_at_the_height_of_the_head_is_walked_around(tmp_path: Pa
     assert_untouched(result)
 
 
-@pytest.mark.parametrize(("base", "depth"), [(0.46, 0.1), (0.54, 1.0), (0.57, 0.1)])
+@pytest.mark.parametrize(("base", "depth"), [again(0.46, 0.1), again(0.54, 1.0), (0.57, 0.1)])
 def test_a_ceiling_below_the_robots_height_is_refused_as_too_low(
     tmp_path: Path, base: float, depth: float
 ) -> None:
@@ -54,7 +60,7 @@ def test_a_ceiling_below_the_robots_height_is_refused_as_too_low(
     assert_untouched(result)
 
 
-@pytest.mark.parametrize(("base", "depth"), [(0.62, 0.1), (0.63, 1.0)])
+@pytest.mark.parametrize(("base", "depth"), [again(0.62, 0.1), (0.63, 1.0)])
 def test_a_ceiling_that_leaves_4_cm_more_is_passed_under(
     tmp_path: Path, base: float, depth: float
 ) -> None:

@@ -137,11 +137,16 @@ def run(text: str, folder: Path, *, long: bool = True) -> list[tuple[str, int, i
 
 
 LONG = {
+    "add_world_model",
+    "known_map",
     "look_at_a_run",
+    "map_your_data",
+    "own_planner",
     "own_robot",
     "replay",
     "robot_from_a_collection",
     "sweep_and_compare",
+    "test_with_pytest",
 }
 """Pages whose commands take more than ten seconds."""
 TYPED = [pytest.param(p, marks=[pytest.mark.long] * (p.stem in LONG), id=p.stem) for p in PAGES]

@@ -93,7 +93,15 @@ def recorded(folder: Path) -> set[str]:
         return {str(chunk.entity_path) for chunk in chunks}
 
 
-@pytest.mark.parametrize("numbers", [[signal.SIGINT], [signal.SIGTERM], [signal.SIGHUP], TWICE])
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        [signal.SIGTERM],
+        pytest.param([signal.SIGINT], marks=pytest.mark.long),  # as `TWICE` begins
+        pytest.param([signal.SIGHUP], marks=pytest.mark.long),
+        TWICE,
+    ],
+)
 def test_an_interrupted_run_closes_its_files_says_so_and_leaves_with_130(
     tmp_path: Path, numbers: list[signal.Signals]
 ) -> None:

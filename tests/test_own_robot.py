@@ -70,6 +70,7 @@ def test_the_bare_model_is_reported_and_its_draft_walks_a_metre(tmp_path: Path) 
     assert walked["passed"], walked
 
 
+@pytest.mark.long
 def test_it_walks_a_metre_and_says_so(op3: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert execute(["robot", "check", str(op3), "--walk", "--json"]) == 0
     walked = json.loads(capsys.readouterr().out)["walk"]

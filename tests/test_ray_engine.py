@@ -44,6 +44,7 @@ def cluster(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 @pytest.mark.slow
 @pytest.mark.timeout(600)
 @pytest.mark.filterwarnings("ignore")  # Ray leaves files open, and warns of its own changes
+@pytest.mark.long
 def test_on_two_nodes_episodes_come_out_as_on_one_machine(cluster: None, tmp_path: Path) -> None:  # noqa: ARG001
     request = crossed([short(tmp_path)], seeds=range(4))
     care = Care(keep=1)

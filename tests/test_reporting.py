@@ -67,6 +67,16 @@ def copy(tmp_path: Path) -> Path:
     return Path(shutil.copytree(recorded_run(), tmp_path / "run"))
 
 
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave out the robot's pictures, of which nothing is claimed: a process and a second each."""
+    monkeypatch.setattr(sections, "strip", lambda _: ())
+
+
+DRAWN_OF = ("physics.npz", "model.mjb")
+"""The files of which the robot's pictures are drawn."""
+
+
 def test_the_page_asks_for_nothing_outside(made: str) -> None:
     found = Page(made)
     assert all(each.startswith(("data:", "#")) for each in found.addresses())
@@ -121,6 +131,7 @@ def tampered(folder: Path, **changes: Any) -> None:  # noqa: ANN401
     (folder / "result.json").write_text(json.dumps(document | changes))
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_what_others_wrote_stays_text(copy: Path, tmp_path: Path) -> None:
     tampered(
         copy,
@@ -142,19 +153,43 @@ def test_what_others_wrote_stays_text(copy: Path, tmp_path: Path) -> None:
     assert sum(HOSTILE in text for text in found.texts) > 5
 
 
-@pytest.mark.parametrize("name", KNOWN)
+@pytest.mark.parametrize("name", sorted({*KNOWN} - {*DRAWN_OF}))
+@pytest.mark.usefixtures("undrawn")
 def test_what_is_missing_is_told(copy: Path, name: str) -> None:
+    check_missing(copy, name)
+
+
+@pytest.mark.parametrize("name", DRAWN_OF)
+def test_what_is_missing_for_the_pictures_is_told(copy: Path, name: str) -> None:
+    check_missing(copy, name)
+
+
+def check_missing(copy: Path, name: str) -> None:
+    """Remove a file of a run, and fail where its page does not say so."""
     (copy / name).unlink()
     found = Page(report([copy]).read_text())
     told = "cut off" if name == "result.json" else f"{name} is missing"
     assert found.where(told) < found.where("Run it again")
 
 
-@pytest.mark.parametrize(
-    "name", ["map.png", "trajectory.tum", "trajectory_truth.tum", "physics.npz", "model.mjb"]
-)
-@pytest.mark.parametrize("harm", ["empty", "noise", "half"])
+HARMS = ("empty", "noise", "half")
+
+
+@pytest.mark.parametrize("name", ["map.png", "trajectory.tum", "trajectory_truth.tum"])
+@pytest.mark.parametrize("harm", HARMS)
+@pytest.mark.usefixtures("undrawn")
 def test_a_broken_file_beside_the_result_is_told(copy: Path, name: str, harm: str) -> None:
+    check_broken(copy, name, harm)
+
+
+@pytest.mark.parametrize("name", DRAWN_OF)
+@pytest.mark.parametrize("harm", HARMS)
+def test_a_broken_file_for_the_pictures_is_told(copy: Path, name: str, harm: str) -> None:
+    check_broken(copy, name, harm)
+
+
+def check_broken(copy: Path, name: str, harm: str) -> None:
+    """Break a file of a run, and fail where its page does not say so."""
     content = (copy / name).read_bytes()
     half = content[: len(content) // 2]
     (copy / name).write_bytes({"empty": b"", "noise": b"\xff\x00" * 500, "half": half}[harm])
@@ -193,6 +228,7 @@ def test_a_folder_that_is_no_runs_is_bad_input(tmp_path: Path) -> None:
         assert execute(["report", str(folder)]) == 2
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_several_runs_have_an_index_with_the_failed_ones_first(copy: Path, tmp_path: Path) -> None:
     good = Path(shutil.copytree(plain_run(), tmp_path / "good"))
     document = json.loads((good / "result.json").read_text())
@@ -215,11 +251,13 @@ def test_for_several_a_place_is_needed(copy: Path, tmp_path: Path) -> None:
         report([copy], tmp_path / "file" / "x.html")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_json_says_where_the_page_is(copy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert execute(["report", str(copy), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["report"] == str(copy / "report.html")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_page_that_cannot_be_written_leaves_none(
     copy: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -28,8 +28,15 @@ thickness = 0.05
 """
 
 
-@pytest.mark.parametrize("robot", ["qrio", "nao"])
-@pytest.mark.parametrize("yaw", [-0.1, 0.08])
+@pytest.mark.parametrize(
+    ("robot", "yaw"),
+    [
+        ("qrio", -0.1),
+        ("nao", 0.08),
+        pytest.param("qrio", 0.08, marks=pytest.mark.long),
+        pytest.param("nao", -0.1, marks=pytest.mark.long),
+    ],
+)
 def test_who_starts_a_foot_before_a_wall_turns_about_and_goes(
     tmp_path: Path, robot: str, yaw: float
 ) -> None:

@@ -2,7 +2,9 @@
 
 import itertools
 import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from robot_builders import qrio_copy
@@ -51,11 +53,31 @@ def test_a_robot_that_stands_has_not_fallen_and_one_that_is_thrown_over_has() ->
     assert world.fall() is not None
 
 
+def test_a_row_is_plain_data() -> None:
+    row = Row("turns", "none", passed=False, why="falls")
+    assert row.plain() == {"task": "turns", "result": "none", "passed": False, "why": "falls"}
+
+
 @pytest.mark.slow
-def test_the_table_says_what_qrio_does_and_why_it_does_no_more(tmp_path: Path) -> None:
-    said: list[str] = []
-    rows = {row["task"]: row for row in table(qrio_copy(tmp_path), said.append)}
-    assert [line.removesuffix(" ...") for line in said] == list(rows)
+def test_walk_ends_with_a_table_of_what_qrio_does_and_why_it_does_no_more(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made: list[dict[str, Any]] = []
+
+    def kept(folder: Path, tell: Callable[[str], None]) -> list[dict[str, Any]]:
+        made.extend(table(folder, tell))
+        return made
+
+    monkeypatch.setattr("treadwell.trials.table.table", kept)
+    assert execute(["robot", "check", str(qrio_copy(tmp_path)), "--walk"]) == 0
+    captured = capsys.readouterr()
+    rows = {row["task"]: row for row in made}
+    said = [line.removesuffix(" ...") for line in captured.err.splitlines()]
+    assert [line for line in said if line in rows] == list(rows)
+    assert "why no more" in captured.out
+    for task, row in rows.items():
+        assert task in captured.out
+        assert row["result"] in captured.out
     for task in ("walks ahead", "walks back", "walks sideways", "turns", "stops"):
         assert rows[task]["passed"], rows[task]
         assert rows[task]["result"].startswith("3 of 3")
@@ -64,17 +86,3 @@ def test_the_table_says_what_qrio_does_and_why_it_does_no_more(tmp_path: Path) -
     assert float(rows["steps up"]["result"].split()[0]) >= 50.0
     assert "mm: " in rows["steps up"]["why"]
     assert json.loads(json.dumps(rows)) == rows
-
-
-def test_a_row_is_plain_data() -> None:
-    row = Row("turns", "none", passed=False, why="falls")
-    assert row.plain() == {"task": "turns", "result": "none", "passed": False, "why": "falls"}
-
-
-@pytest.mark.slow
-def test_walk_ends_with_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert execute(["robot", "check", str(qrio_copy(tmp_path)), "--walk"]) == 0
-    captured = capsys.readouterr()
-    for word in ("why no more", "walks sideways", "steps down", "is pushed"):
-        assert word in captured.out
-    assert "steps up ..." in captured.err
