@@ -3,7 +3,9 @@
 import json
 import subprocess
 import sys
+from copy import deepcopy
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,8 +20,10 @@ from treadwell.exports.export import export
 from treadwell.map_making.making import MadeMap, make_map
 from treadwell.map_making.placing import placing
 from treadwell.map_making.request import read_request
+from treadwell.map_making.sizing import sizing
 from treadwell.map_memory import FLOOR, OBSTACLE
 from treadwell.recording.map_file import read_map
+from treadwell.sources.frame import RangeFrame
 
 WIDTH, HEIGHT, FX, FY, CX, CY = 96, 72, 80.0, 84.0, 45.0, 37.5
 CAMERA = f"width={WIDTH}\nheight={HEIGHT}\nfx={FX}\nfy={FY}\ncx={CX}\ncy={CY}\ndepth_scale=1000\n"
@@ -170,17 +174,22 @@ def test_the_cells_of_every_world_model_are_as_large_as_points_lie_apart(
     assert made.map.cell >= 0.3
 
 
-def test_the_voxels_of_a_mesh_grow_with_the_cells_and_the_users_own_stay(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("own", "voxel"), [({}, 0.25), ({"fusion": {"voxel": 0.2, "smoothing": 1}}, 0.2)]
+)
+def test_the_voxels_of_a_mesh_grow_with_the_cells_and_the_users_own_stay(
+    own: dict[str, Any], voxel: float
+) -> None:
     """Voxels of 2 cm between points 30 cm apart took a hundred times as long, for no detail."""
-    path, mesh = landscape(tmp_path), "mesh"
-    assumed = "navigation.mesh.fusion.voxel"
-    made = mapped(path, tmp_path / "grown", world_model=mesh)
-    assert made.result.assumed[assumed] == pytest.approx(0.02 * made.map.cell / 0.04)
-    own = ("mesh.fusion.voxel=0.2", "mesh.fusion.smoothing=1")
-    made = mapped(path, tmp_path / "own", *own, world_model=mesh)
-    assert assumed not in made.result.assumed
-    made = mapped(path, tmp_path / "fine", "elevation.cell=0.05", world_model=mesh)
-    assert made.result.assumed[assumed] == pytest.approx(0.025)
+    x, y = (axis.ravel() for axis in np.meshgrid(*2 * [np.arange(-12.0, 12.0, 0.3)]))
+    points = np.column_stack([x, y, 0.0 * x]).astype(np.float32)
+    frame = RangeFrame(0.0, np.eye(4), None, None, points, "cloud", origin_known=False)
+    given = {"mesh": deepcopy(own)}
+    found = sizing("mesh", given, (frame, placing("z", frame.world_from_sensor, 0.04)), "auto")
+    assert found.cell == pytest.approx(0.5)
+    assert found.parameters["mesh"]["fusion"]["voxel"] == pytest.approx(voxel)
+    assert ("navigation.mesh.fusion.voxel" in found.assumed) is not bool(own)
+    assert given == {"mesh": own}
 
 
 PEAK_OF = """
