@@ -5,6 +5,7 @@
 mod arrival;
 mod blind;
 mod config;
+mod dead_ends;
 pub(crate) mod gaze;
 mod handover;
 mod locate;
@@ -44,6 +45,7 @@ use crate::things_met::ThingsMet;
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
 use blind::{CameBy, Tried};
 pub use config::WalkingConfig;
+use dead_ends::DeadEnds;
 use gaze::{Gazer, Sweep};
 use obstacles::Followed;
 use overhead::Eyes;
@@ -88,6 +90,7 @@ pub struct WalkingBehaviour {
     looked_up: Looked,
     followed: Followed,
     progress: Progress,
+    dead_ends: DeadEnds,
     /// What was tried against seeing nothing since the robot last walked.
     tried: Tried,
     came_by: CameBy,
@@ -140,6 +143,7 @@ impl WalkingBehaviour {
             looked_up: Looked::default(),
             followed: Followed::default(),
             progress: Progress::default(),
+            dead_ends: DeadEnds::default(),
             tried: Tried::default(),
             came_by: CameBy::default(),
             darks: 0,
@@ -178,6 +182,7 @@ impl WalkingBehaviour {
         if self.goal != Some(*situation.goal) {
             self.goal = Some(*situation.goal);
             self.progress = Progress::default();
+            self.dead_ends.forget();
             self.followed.forget();
         }
     }

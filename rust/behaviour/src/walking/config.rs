@@ -75,8 +75,8 @@ settings! {
         refuse_time: f64 = 3.0, "s", STAND;
         /// The robot looks around when it has made no headway for this long.
         patience: f64 = 15.0, "s", WAIT;
-        /// Looks without headway, stumbles, corrections and new tries of one kind before the robot gives up. More would tell nothing
-        /// new, and between two searches the robot walks, so that no clock ends them.
+        /// Looks without headway or from one place that show no way, stumbles, corrections and new tries of one kind before the robot
+        /// gives up. More would tell nothing new, and between two searches the robot walks, so that no clock ends them.
         tries: u32 = 3, "1", within(1.0, 100.0);
         /// Things that were not seen, and that its feet meet, before the robot gives up: each one teaches it another way.
         touches: u32 = 12, "1", within(1.0, 1000.0);

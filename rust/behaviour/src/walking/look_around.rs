@@ -39,8 +39,17 @@ impl WalkingBehaviour {
         self.way.s() > self.config.tuning.look_around.sure_after
     }
 
-    /// There is no way from what was seen here: turn and look there, and give up when all around was looked at.
+    /// There is no way from what was seen here: turn and look there, and give up when all around was looked at, or when a look from here
+    /// showed none time and again.
     fn look_elsewhere(&mut self, tick: &WayTick<'_>) {
+        let here_m = [tick.pose.x_m, tick.pose.y_m];
+        if self.looks == 0
+            && let Some(reason) = tick.no_way_reason()
+            && self.dead_ends.meet(here_m, self.radius_m) >= self.config.tries
+        {
+            self.refuse(reason);
+            return;
+        }
         self.looks += 1;
         let tuning = &self.config.tuning.look_around;
         let goal = tick.situation.goal;

@@ -77,6 +77,8 @@ pub(crate) struct Simulation {
     pub(crate) goal_is_shut_in: bool,
     /// Plans instead of the Dijkstra here.
     pub(crate) planner: Option<AStar>,
+    /// Plans instead of both, by the robot's pose.
+    pub(crate) plans: Option<fn(&PlanarPose) -> Plan>,
     /// Boxes: their lowest and highest corner, m.
     pub(crate) boxes: Vec<[[f64; 2]; 2]>,
     pub(crate) pose: PlanarPose,
@@ -115,6 +117,7 @@ impl Simulation {
             closed: false,
             goal_is_shut_in: false,
             planner: None,
+            plans: None,
             boxes: Vec::new(),
             pose: start,
             goal: Goal {
@@ -245,6 +248,10 @@ impl Simulation {
     }
 
     fn make_plan(&mut self) {
+        if let Some(plans) = self.plans {
+            self.plan = Some(plans(&self.pose));
+            return;
+        }
         if let Some(planner) = &mut self.planner {
             if !self.frames.is_multiple_of(PLANNED_FRAMES) && self.plan.is_some() {
                 return;
@@ -254,13 +261,8 @@ impl Simulation {
             self.plan = Some(plan.unwrap());
             return;
         }
-        let blocked_cells = self
-            .view
-            .cells
-            .values()
-            .iter()
-            .filter(|s| matches!(s, Surface::Obstacle(_)))
-            .count();
+        let cells = self.view.cells.values().iter();
+        let blocked_cells = cells.filter(|s| matches!(s, Surface::Obstacle(_))).count();
         if self.closed {
             let no_way = NoWay {
                 shuts_goal_in: self.goal_is_shut_in,
