@@ -66,6 +66,8 @@ impl LegPosture {
 #[derive(Debug, Clone)]
 pub(crate) struct LegOdometry {
     anchors_m: [Option<Vector3<f64>>; 2],
+    /// The level on which each foot stood last, m.
+    before_m: [Option<f64>; 2],
     /// How each sole lay, from heel to toes, as it carried alone last, or took hold since.
     toes_up: [f64; 2],
     /// The torso's origin in the odometry frame, m.
@@ -78,6 +80,7 @@ impl LegOdometry {
     pub(crate) const fn new() -> Self {
         Self {
             anchors_m: [None; 2],
+            before_m: [None; 2],
             toes_up: [0.0; 2],
             torso_m: Vector3::new(0.0, 0.0, 0.0),
             on_slope: [false; 2],
@@ -154,8 +157,8 @@ impl LegOdometry {
     ) {
         // What two anchors differ by on level ground is the error of a tilt.
         let level = self.on_slope == [false; 2];
-        let same_level =
-            |a: &Vector3<f64>, b: &Vector3<f64>| (a.z - b.z).abs() < config.level_band && level;
+        let are_same = |a_m: f64, b_m: f64| (a_m - b_m).abs() < config.level_band && level;
+        let same_level = |a: &Vector3<f64>, b: &Vector3<f64>| are_same(a.z, b.z);
         for side in Side::BOTH {
             if contacts.holds(side) && !contacts.holds(side.other()) {
                 self.toes_up[side.index()] = legs.toes_up(side);
@@ -165,14 +168,20 @@ impl LegOdometry {
             if contacts.holds(side) {
                 if anchor.is_none() {
                     let mut landed = self.torso_m + legs.reach_m(side);
-                    if let Some(other) = other.filter(|other| same_level(other, &landed)) {
-                        landed.z = other.z;
-                    }
+                    // Who steps onto something as high as the band and down again would rise by it each time, were it not for the
+                    // level from which the foot came.
+                    let before_m = self.before_m[side.index()];
+                    let levels_m = [other.map(|other| other.z), before_m].into_iter().flatten();
+                    let near_m = levels_m.filter(|&level_m| are_same(level_m, landed.z));
+                    let away_m = |level_m: f64| (level_m - landed.z).abs();
+                    let nearest_m = near_m.min_by(|&a, &b| away_m(a).total_cmp(&away_m(b)));
+                    landed.z = nearest_m.filter(|_| other.is_some()).unwrap_or(landed.z);
                     *anchor = Some(landed);
                     self.toes_up[side.index()] = legs.toes_up(side);
                 }
             } else if let Some(other) = other.filter(|_| contacts.holds(side.other())) {
                 let own = anchor.take();
+                self.before_m[side.index()] = own.map(|own| own.z).or(self.before_m[side.index()]);
                 if let Some(own) = own.filter(|own| !same_level(own, &other)) {
                     self.measure_level_again(legs, side, own.z, other.z, config.level_limit);
                 }

@@ -109,9 +109,9 @@ fn a_foot_that_leaves_level_ground_for_a_bevel_has_not_lifted_its_heel() {
     assert!((level_m - RISE_M).abs() < 1e-3, "{level_m}");
 }
 
-/// Height of the robot after steps of 5 mm up each, told or not told that they are a slope's.
-fn climbed_m(on_slope: bool) -> f64 {
-    const STEP_M: f64 = 0.005;
+/// Height of the robot after steps, told or not told that they are a slope's: the left foot's first, then in turn. By the number of a step,
+/// how high the soles are once it is taken, m.
+fn level_m(on_slope: bool, steps: usize, soles_after_m: impl Fn(usize) -> [f64; 2]) -> f64 {
     let config = ProprioceptionConfig::default();
     let mut contacts = FootContacts::new(65.0, &config);
     let mut odometry = LegOdometry::new();
@@ -124,11 +124,11 @@ fn climbed_m(on_slope: bool) -> f64 {
     odometry.start(&legs([0.0; 2]));
     let mut soles_m = [0.0; 2];
     let mut level_m = 0.0;
-    for step in 0..8 {
+    for step in 0..steps {
         let side = step % 2;
         for lifted in [true, false] {
             if !lifted {
-                soles_m[side] = STEP_M * (step + 1) as f64;
+                soles_m = soles_after_m(step);
             }
             let mut shares = [1.0; 2];
             shares[side] = if lifted { 0.0 } else { 1.0 };
@@ -145,7 +145,27 @@ fn climbed_m(on_slope: bool) -> f64 {
 
 #[test]
 fn small_steps_add_up_on_a_slope_and_are_none_on_level_ground() {
-    let (sloped_m, level_m) = (climbed_m(true), climbed_m(false));
+    const STEP_M: f64 = 0.005;
+    let soles_after_m = |step: usize| {
+        let mut soles_m = [STEP_M * step as f64; 2];
+        soles_m[step % 2] += STEP_M;
+        soles_m
+    };
+    let (sloped_m, level_m) = (
+        level_m(true, 8, soles_after_m),
+        level_m(false, 8, soles_after_m),
+    );
     assert!((sloped_m - 0.0375).abs() < 1e-3, "{sloped_m}");
     assert!(level_m.abs() < 1e-9, "{level_m}");
+}
+
+/// Who turned on the spot over a cable was 70 mm higher afterwards: a sole that lands on it sinks as it takes the load, from above the band
+/// in which two levels are one to below it.
+#[test]
+fn a_foot_that_lands_on_a_cable_again_and_again_does_not_climb() {
+    let right_m = [0.0074, 0.0087];
+    for steps in [7, 8, 19, 20] {
+        let level_m = level_m(false, steps, |step| [0.0, right_m[step % 2]]);
+        assert!((-1e-9..0.0088).contains(&level_m), "{steps}: {level_m}");
+    }
 }
