@@ -42,7 +42,7 @@ settings! {
         least_load: f64 = 0.2, "1", NOT_NEGATIVE;
         /// Share of a new load in the smoothed one, for each tick.
         load_filter: f64 = 0.5, "1", above_to(0.0, 1.0);
-        /// A foot that lands nearer than this to the height of the other one stands on the same level.
+        /// A foot that lands nearer than this to the height of the other one, or of where it stood before, stands on that level.
         level_band: f64 = 0.008, "m", NOT_NEGATIVE;
         /// Numbers that few will want to turn.
         tuning: ProprioceptionTuning;
