@@ -66,8 +66,8 @@ LOOKED_AT = (
     "turns",
     "beam_seen",
 )
-IN_A_KNOWN_HOUSE = ("visitor_nao", "underpass")
-FAR_IN_A_KNOWN_HOUSE = ("kidnapped", "two_levels", "two_levels_unknown", "nao_1", "nao_2", "nao_3")
+IN_A_KNOWN_HOUSE = ("two_levels_unknown", "visitor_nao", "kidnapped", "underpass")
+FAR_IN_A_KNOWN_HOUSE = ("two_levels", "nao_1", "nao_2", "nao_3")
 FOOT_BY_FOOT = (
     "l_stairs",
     "l_stairs_down",
