@@ -192,6 +192,11 @@ def test_the_voxels_of_a_mesh_grow_with_the_cells_and_the_users_own_stay(
     assert given == {"mesh": own}
 
 
+def test_a_table_of_a_mesh_that_is_no_table_is_told_by_its_name(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"navigation\.mesh\.fusion: expected a table"):
+        mapped(landscape(tmp_path), tmp_path / "map", "mesh.fusion=3", world_model="mesh")
+
+
 PEAK_OF = """
 import resource, subprocess, sys
 subprocess.run(sys.argv[1:], check=True)

@@ -134,11 +134,13 @@ def _voxels(table: str, cell: float, scale: float) -> dict[str, float]:
 def _set_aside(found: Sizing, table: str, follow: dict[str, Any]) -> None:
     """Put what follows into a second table of the model, as far as it has the keys."""
     own, defaults = found.parameters.setdefault(table, {}), _defaults(table)
-    for path in set(follow) & set(defaults):
+    for path in sorted(set(follow) & set(defaults)):
         *groups, key = path.split(".")
         place = own
         for group in groups:
             place = place.setdefault(group, {})
+            if not isinstance(place, dict):
+                return  # no table: the core refuses it by its name
         if key not in place and follow[path] != defaults[path]:
             place[key] = follow[path]
             found.assumed[f"navigation.{table}.{path}"] = follow[path]

@@ -35,9 +35,9 @@ mod tests {
     use planning::{NoWay, Plan, Refusal};
 
     use super::*;
-    use crate::Outcome;
-    use crate::walking::simulation::Simulation;
+    use crate::walking::simulation::{Simulation, walking};
     use crate::walking::track::tests::straight;
+    use crate::{Outcome, WalkingConfig};
 
     #[test]
     fn a_place_is_counted_with_what_lies_near_and_others_for_themselves() {
@@ -76,5 +76,17 @@ mod tests {
             simulation.states
         );
         assert!(after_s < 150.0, "{after_s}");
+    }
+
+    #[test]
+    fn who_gives_up_at_once_has_looked_behind_itself_all_the_same() {
+        let mut simulation = Simulation::new(PlanarPose::default(), [1.5, 0.0]);
+        simulation.behaviour = walking(WalkingConfig {
+            tries: 1,
+            ..WalkingConfig::default()
+        });
+        simulation.closed = true;
+        assert!(simulation.run(120.0).0.is_some());
+        assert!(simulation.was_in("turn"), "{:?}", simulation.states);
     }
 }

@@ -45,10 +45,13 @@ impl WalkingBehaviour {
         let here_m = [tick.pose.x_m, tick.pose.y_m];
         if self.looks == 0
             && let Some(reason) = tick.no_way_reason()
-            && self.dead_ends.meet(here_m, self.radius_m) >= self.config.tries
         {
-            self.refuse(reason);
-            return;
+            // The first time there are other directions to look at.
+            let times = self.dead_ends.meet(here_m, self.radius_m);
+            if times > 1 && times >= self.config.tries {
+                self.refuse(reason);
+                return;
+            }
         }
         self.looks += 1;
         let tuning = &self.config.tuning.look_around;
