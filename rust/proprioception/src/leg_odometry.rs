@@ -68,6 +68,8 @@ pub(crate) struct LegOdometry {
     anchors_m: [Option<Vector3<f64>>; 2],
     /// The level on which each foot stood last, m.
     before_m: [Option<f64>; 2],
+    /// Whether each foot stands on a level that was measured as it landed, and on no known one.
+    is_new: [bool; 2],
     /// How each sole lay, from heel to toes, as it carried alone last, or took hold since.
     toes_up: [f64; 2],
     /// The torso's origin in the odometry frame, m.
@@ -81,6 +83,7 @@ impl LegOdometry {
         Self {
             anchors_m: [None; 2],
             before_m: [None; 2],
+            is_new: [false; 2],
             toes_up: [0.0; 2],
             torso_m: Vector3::new(0.0, 0.0, 0.0),
             on_slope: [false; 2],
@@ -158,7 +161,6 @@ impl LegOdometry {
         // What two anchors differ by on level ground is the error of a tilt.
         let level = self.on_slope == [false; 2];
         let are_same = |a_m: f64, b_m: f64| (a_m - b_m).abs() < config.level_band && level;
-        let same_level = |a: &Vector3<f64>, b: &Vector3<f64>| are_same(a.z, b.z);
         for side in Side::BOTH {
             if contacts.holds(side) && !contacts.holds(side.other()) {
                 self.toes_up[side.index()] = legs.toes_up(side);
@@ -175,14 +177,17 @@ impl LegOdometry {
                     let near_m = levels_m.filter(|&level_m| are_same(level_m, landed.z));
                     let away_m = |level_m: f64| (level_m - landed.z).abs();
                     let nearest_m = near_m.min_by(|&a, &b| away_m(a).total_cmp(&away_m(b)));
-                    landed.z = nearest_m.filter(|_| other.is_some()).unwrap_or(landed.z);
+                    let known_m = nearest_m.filter(|_| other.is_some());
+                    landed.z = known_m.unwrap_or(landed.z);
+                    self.is_new[side.index()] = known_m.is_none();
                     *anchor = Some(landed);
                     self.toes_up[side.index()] = legs.toes_up(side);
                 }
-            } else if let Some(other) = other.filter(|_| contacts.holds(side.other())) {
-                let own = anchor.take();
-                self.before_m[side.index()] = own.map(|own| own.z).or(self.before_m[side.index()]);
-                if let Some(own) = own.filter(|own| !same_level(own, &other)) {
+            } else if let Some(other) = other.filter(|_| contacts.holds(side.other()))
+                && let Some(own) = anchor.take()
+            {
+                self.before_m[side.index()] = Some(own.z);
+                if !are_same(own.z, other.z) && self.is_new[side.other().index()] {
                     self.measure_level_again(legs, side, own.z, other.z, config.level_limit);
                 }
             }
