@@ -6,7 +6,7 @@ use sensing::SenseFault;
 use super::repair::Repair;
 use super::{Check, Finding, Lasting, Moment, foot_name};
 
-const CELLS: [&str; 4] = ["front left", "front right", "rear left", "rear right"];
+pub(super) const CELLS: [&str; 4] = ["front left", "front right", "rear left", "rear right"];
 
 /// How long each cell has been constant.
 #[derive(Debug, Clone, Default)]

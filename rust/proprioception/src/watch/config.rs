@@ -10,7 +10,8 @@ settings! {
         constant: f64 = 0.015, "s" of sensor, POSITIVE;
         /// Feet that carry less than this share of the robot's weight carry too little.
         least_load: f64 = 0.65, "1", above_to(0.0, 1.0);
-        /// Time for which feet that carry too little are believed: a landing shakes them.
+        /// Time for which feet that carry too little are believed: a landing shakes them. A cell that has told nothing for so long
+        /// while its foot carried half as much is the one that is dead.
         load_time: f64 = 0.2, "s", POSITIVE;
         /// Time over which forces are smoothed.
         smooth: f64 = 0.1, "s", POSITIVE;

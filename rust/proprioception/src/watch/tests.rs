@@ -108,6 +108,19 @@ fn a_dead_foot_is_named_by_the_weight_that_is_missing() {
 }
 
 #[test]
+fn a_dead_cell_is_named_and_not_the_foot_that_swings() {
+    assert_named(
+        "left foot's front left force cell tells nothing",
+        4.0,
+        |observation| {
+            // The weight lies ahead, on the cell that is dead.
+            observation.foot_forces_n[0][2] *= 0.3;
+            observation.foot_forces_n[0][0] = 0.0;
+        },
+    );
+}
+
+#[test]
 fn a_robot_that_nothing_carries_says_so() {
     assert_named("nothing carries the robot", 1.0, |observation| {
         observation.foot_forces_n = [[0.0; 4]; 2];
