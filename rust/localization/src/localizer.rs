@@ -57,6 +57,11 @@ pub trait Localizer: Send + Sync {
     /// The estimate at a control tick, from odometry and the corrections so far.
     fn estimate(&mut self, body: &BodyState) -> Result<Estimate, LocalizerError>;
 
+    /// Whether it knows where the robot is only as long as the legs told the whole way: one that was carried off is lost to it.
+    fn needs_unbroken_way(&self) -> bool {
+        false
+    }
+
     /// The places that are kept in mind, of a localizer that keeps several. Made anew at each call.
     fn guesses(&self) -> Vec<Guess> {
         Vec::new()

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use proprioception::BodyState;
 use robot::Body;
 use segmentation::{Planes, Segmenter};
-use sensing::{Frame, Scan, SelfFilter};
+use sensing::{Frame, Scan, SceneWatch, SelfFilter, SenseFault};
 use settings::{POSITIVE, at_least, settings};
 use stairs::{CarryingSole, Recognizer};
 
@@ -49,6 +49,7 @@ pub struct Perception {
     scan: Scan,
     moving: Moving,
     self_filter: SelfFilter,
+    scenes: SceneWatch,
     /// The planes of the last frame.
     pub planes: Planes,
     /// Frames taken into the map so far.
@@ -110,7 +111,7 @@ impl Perception {
         segmenter: Box<dyn Segmenter>,
         world_model: Box<dyn WorldModel>,
         recognizer: Recognizer,
-        (scan, self_filter): (Scan, SelfFilter),
+        (scan, self_filter, scenes): (Scan, SelfFilter, SceneWatch),
         moving: Moving,
         config: PerceptionConfig,
     ) -> Self {
@@ -122,6 +123,7 @@ impl Perception {
             scan,
             moving,
             self_filter,
+            scenes,
             frames_used: 0,
             forgotten: 0,
             last_frame_ns: None,
@@ -137,6 +139,13 @@ impl Perception {
     /// What moves, or may, and where it will be from now on.
     pub(crate) fn movers(&self, now_ns: u64) -> Vec<Mover> {
         self.moving.movers(now_ns)
+    }
+
+    /// What the pictures contradict, if anything: the camera's place in the head, or the way that the legs tell, unless the localizer
+    /// needs no such way.
+    pub(crate) fn fault(&self, localizer: &dyn Localizer) -> Option<&SenseFault> {
+        let carried = self.scenes.carried();
+        (self.scenes.turned()).or_else(|| carried.filter(|_| localizer.needs_unbroken_way()))
     }
 
     /// Takes in a frame that a body took. Whether the robot found itself elsewhere than it believed, so that what was mapped is
@@ -156,6 +165,7 @@ impl Perception {
         let _own_pixels =
             self.self_filter
                 .mask(&mut self.scan, &body_then.links, &torso_from_camera);
+        self.scenes.look(&self.scan, &body_then.odometry_from_robot);
         let predicted = timing.measure(Stage::Localize, || {
             localizer.see(&self.scan)?;
             localizer.estimate(body_then)

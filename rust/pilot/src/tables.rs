@@ -9,6 +9,7 @@ const STAGES: &[TableDescription] = &[
     TableDescription::of::<proprioception::ProprioceptionConfig>(),
     TableDescription::of::<proprioception::SenseWatchConfig>(),
     TableDescription::of::<sensing::FrameWatchConfig>(),
+    TableDescription::of::<sensing::SceneWatchConfig>(),
     TableDescription::of::<sensing::ScanConfig>(),
     TableDescription::of::<sensing::SelfFilterConfig>(),
     TableDescription::of::<crate::PerceptionConfig>(),

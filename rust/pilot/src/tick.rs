@@ -13,7 +13,8 @@ use proprioception::{
 };
 use robot::{Body, Side};
 use sensing::{
-    Frame, FrameWatch, FrameWatchConfig, Intrinsics, Observation, Scan, ScanConfig, SelfFilter,
+    Frame, FrameWatch, FrameWatchConfig, Intrinsics, Observation, Scan, ScanConfig, SceneWatch,
+    SceneWatchConfig, SelfFilter,
 };
 use settings::{Table as _, read};
 use volume::octree::Octree;
@@ -141,6 +142,8 @@ impl Pilot {
         let senses: ProprioceptionConfig = read(tables, "proprioception")?;
         let frames: FrameWatchConfig = read(tables, "frame_watch")?;
         frames.check()?;
+        let scenes: SceneWatchConfig = read(tables, "scene_watch")?;
+        scenes.check()?;
         let watch: SenseWatchConfig = read(tables, "sense_watch")?;
         let segmenter = given.segmenter.map_or_else(|| making.segmenter(), Ok)?;
         let self_filter = SelfFilter::new(&body, &read(tables, "self_filter")?)?;
@@ -158,7 +161,7 @@ impl Pilot {
                 segmenter,
                 world_model,
                 making.recognizer()?,
-                (scan, self_filter),
+                (scan, self_filter, SceneWatch::new(scenes)),
                 Moving::new(read(tables, "moving")?)?,
                 perception,
             ),
@@ -182,6 +185,7 @@ impl Pilot {
     fn begin(&mut self, time_ns: u64) {
         self.time_ns = Some(time_ns);
         self.timing = Timing::default();
+        self.frames.pass(time_ns);
         self.proprioception.note_slopes(self.walker.on_slope());
         self.senses.note_uneven(self.walker.on_uneven());
     }
@@ -196,8 +200,8 @@ impl Pilot {
             .timing
             .measure(Stage::Localize, || self.proprioception.update(observation))?;
         self.history.push(state);
-        let fault = self.senses.look(measured, state).cloned();
-        self.frames.pass(measured.time_ns);
+        let body = (&mut self.senses, measured, state);
+        let fault = watch::fault(body, (&self.perception, &*self.localizer));
         if let Some(frame) = measured.depth.as_ref().filter(|_| fault.is_none()) {
             self.see_and_plan(frame)?;
         }

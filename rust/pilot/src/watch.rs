@@ -4,11 +4,25 @@
 use behaviour::{
     Behaviour, BehaviourError, Command, Decision, GivingWay, Motion, Mover, Outcome, Situation,
 };
-use sensing::{FrameWatch, SenseFault};
+use localization::Localizer;
+use proprioception::{BodyState, SenseWatch};
+use sensing::{FrameWatch, Observation, SenseFault};
+
+use crate::perception::Perception;
 
 /// Why the robot refuses whose walker is to take footsteps and takes none.
 const NO_FOOTSTEPS: &str =
     "walker: the way needs footsteps one by one, and this walker takes velocities alone";
+
+/// What is wrong with the senses: by what the body tells, else by what was seen until now.
+pub(crate) fn fault(
+    (senses, measured, state): (&mut SenseWatch, &Observation, &BodyState),
+    (perception, localizer): (&Perception, &dyn Localizer),
+) -> Option<SenseFault> {
+    (senses.look(measured, state))
+        .or_else(|| perception.fault(localizer))
+        .cloned()
+}
 
 /// The behaviour's decision. Where a sense of the body is wrong: to stand, and to refuse once the robot does; who gives up while
 /// its `camera` is wrong gives up because of the camera. What comes is given way. Who lists footsteps for a walker that takes none stands

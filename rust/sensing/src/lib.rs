@@ -6,6 +6,7 @@ mod observation;
 mod range_noise;
 mod range_sensor;
 mod scan;
+mod scene_watch;
 mod self_filter;
 mod sense_fault;
 
@@ -15,5 +16,6 @@ pub use observation::{Frame, Observation, ObservationError, TICK_NS, TICK_S};
 pub use range_noise::RangeNoise;
 pub use range_sensor::{PinholeCamera, RangeSensor};
 pub use scan::{Scan, ScanConfig, ScanError, ScanTuning};
+pub use scene_watch::{SceneWatch, SceneWatchConfig};
 pub use self_filter::{SelfFilter, SelfFilterConfig, SelfFilterTuning};
 pub use sense_fault::SenseFault;

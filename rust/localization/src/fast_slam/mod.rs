@@ -159,6 +159,10 @@ impl Localizer for FastSlamLocalizer {
         Ok(())
     }
 
+    fn needs_unbroken_way(&self) -> bool {
+        true
+    }
+
     fn estimate(&mut self, body: &BodyState) -> Result<Estimate, LocalizerError> {
         self.odometry.estimate(body)
     }

@@ -128,6 +128,10 @@ impl Localizer for OdometryLocalizer {
         Ok(())
     }
 
+    fn needs_unbroken_way(&self) -> bool {
+        true
+    }
+
     fn estimate(&mut self, body: &BodyState) -> Result<Estimate, LocalizerError> {
         let map_from_odometry = self.map_from_odometry(body);
         Ok(Estimate {

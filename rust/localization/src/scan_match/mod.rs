@@ -226,6 +226,10 @@ impl Localizer for MatchingLocalizer {
         Ok(())
     }
 
+    fn needs_unbroken_way(&self) -> bool {
+        true
+    }
+
     fn estimate(&mut self, body: &BodyState) -> Result<Estimate, LocalizerError> {
         self.odometry.estimate(body)
     }
