@@ -104,14 +104,15 @@ fn points(scan: &Scan, count: usize) -> impl Iterator<Item = Point3<f64>> {
 /// What a picture before had where a point should have been in it: disparities, px.
 struct SeenBefore {
     expected_px: f64,
-    /// What was there,
+    /// What was there.
     middle_px: f64,
-    /// so far along the camera's axis,
+    /// How far that lay along the camera's axis.
     depth_m: f64,
-    /// and here in the robot's frame of then.
+    /// Where that lay in the robot's frame of then.
     point_m: Point3<f64>,
-    /// What was there or beside it.
+    /// The least that was there or beside it.
     least_px: f64,
+    /// The most that was there or beside it.
     most_px: f64,
 }
 
