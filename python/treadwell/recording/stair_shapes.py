@@ -44,9 +44,16 @@ class StairShapes:
         self._touch = (True, True)
         self._marks: list[tuple[NDArray[np.float64], tuple[int, int, int]]] = []
         self._misstep: str | None = None
-        colours = np.array([0x00000000, 0xE74C3CFF, 0xF1C40FFF, 0xE67E22FF], dtype=np.uint32)
-        names = ["", "no_ground", "obstructed", "stumbled"]
-        labels = ["", "misstep: no ground", "misstep: obstructed", "stumbled"]
+        looks = [
+            ("", "", 0x00000000),
+            ("no_ground", "misstep: no ground", 0xE74C3CFF),
+            ("obstructed", "misstep: obstructed", 0xF1C40FFF),
+            ("left_leg_buckled", "misstep: left leg buckled", 0x9B59B6FF),
+            ("right_leg_buckled", "misstep: right leg buckled", 0x9B59B6FF),
+            ("stumbled", "stumbled", 0xE67E22FF),
+        ]
+        names, labels, shades = zip(*looks, strict=True)
+        colours = np.array(shades, dtype=np.uint32)
         style = rr.StateConfiguration(values=names, labels=labels, colors=colours)
         rows.stream.log("behaviour/misstep", style, static=True)
 

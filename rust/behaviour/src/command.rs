@@ -47,6 +47,8 @@ pub enum Misstep {
     NoGround,
     /// The foot met something on its way.
     Obstructed,
+    /// The leg on this side buckled when it was to carry the robot alone.
+    Buckled(Side),
 }
 
 /// How the list of footsteps goes.

@@ -235,9 +235,11 @@ impl PyStepping {
             None => None,
             Some("no_ground") => Some(Misstep::NoGround),
             Some("obstructed") => Some(Misstep::Obstructed),
+            Some("left_leg_buckled") => Some(Misstep::Buckled(Side::Left)),
+            Some("right_leg_buckled") => Some(Misstep::Buckled(Side::Right)),
             Some(other) => {
                 return Err(PyValueError::new_err(format!(
-                    "misstep must be no_ground, obstructed or None, got {other}"
+                    "misstep must be no_ground, obstructed, left_leg_buckled, right_leg_buckled or None, got {other}"
                 )));
             }
         };
@@ -264,6 +266,8 @@ impl From<PyStepping> for Stepping {
             stumbled: stepping.stumbled,
             misstep: stepping.misstep.map(|misstep| match misstep {
                 "no_ground" => Misstep::NoGround,
+                "left_leg_buckled" => Misstep::Buckled(Side::Left),
+                "right_leg_buckled" => Misstep::Buckled(Side::Right),
                 _ => Misstep::Obstructed,
             }),
         }
@@ -279,6 +283,8 @@ impl From<Stepping> for PyStepping {
             misstep: stepping.misstep.map(|misstep| match misstep {
                 Misstep::NoGround => "no_ground",
                 Misstep::Obstructed => "obstructed",
+                Misstep::Buckled(Side::Left) => "left_leg_buckled",
+                Misstep::Buckled(Side::Right) => "right_leg_buckled",
             }),
         }
     }

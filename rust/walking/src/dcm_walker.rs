@@ -10,6 +10,7 @@ use sensing::{Observation, TICK_S};
 use crate::ankles::Ankles;
 use crate::arms::ArmsControl;
 use crate::balance::{Balance, Sensed};
+use crate::buckling::behind_rad;
 use crate::capture::Capture;
 use crate::catching::Catching;
 use crate::config::GaitConfig;
@@ -128,6 +129,8 @@ impl DcmWalker {
         let error = self.balance.dcm() - self.reference.dcm;
         let omega = self.balance.omega;
         self.gait.catch_tipping(&error);
+        let behind_rad = behind_rad(&self.body, &self.targets, observation);
+        self.gait.catch_buckling(behind_rad);
         let felt = self.feel(observation, state);
         let frame = self.frame(&felt);
         self.list.take(&command.motion, &mut self.gait, frame);

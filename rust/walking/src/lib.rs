@@ -11,6 +11,7 @@ mod ankle_bend;
 mod ankles;
 mod arms;
 pub mod balance;
+mod buckling;
 pub mod capture;
 mod catching;
 mod chain;

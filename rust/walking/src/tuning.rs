@@ -6,7 +6,7 @@ mod pushes;
 use settings::{NOT_NEGATIVE, POSITIVE, SHARE, above_to, at_least, settings, within};
 
 pub(crate) use legs::{LegTuning, SharedHipTuning, SoleFitTuning};
-pub(crate) use pushes::{CaptureTuning, CatchingTuning, TippingTuning};
+pub(crate) use pushes::{BucklingTuning, CaptureTuning, CatchingTuning, TippingTuning};
 
 /// Most steps that may be looked ahead: room for them in an array.
 pub(crate) const MOST_STEPS: usize = 8;
@@ -52,6 +52,8 @@ settings! {
         listed: ListedTuning;
         /// How a foot of a listed step lands.
         landing: LandingTuning;
+        /// When a leg buckles under a listed step.
+        buckling: BucklingTuning;
         /// When a listed step is begun anew because the robot tips.
         tipping: TippingTuning;
         /// How slopes are asked for.

@@ -4,6 +4,7 @@ use mapping::FeltPlace;
 use robot::Side;
 
 use super::{StairClimbing, State};
+use crate::climbing::stepper;
 use crate::climbing::stepper::Stepped;
 use crate::machine::{State as _, Tick};
 use crate::things_met::given_up;
@@ -14,6 +15,7 @@ pub(super) const fn told(misstep: Misstep) -> &'static str {
     match misstep {
         Misstep::NoGround => "the next step is not where it was seen",
         Misstep::Obstructed => "something is in the way of the foot",
+        Misstep::Buckled(_) => "a leg buckles",
     }
 }
 
@@ -26,6 +28,10 @@ fn is_another_thing(felt: &[FeltPlace]) -> bool {
 impl StairClimbing {
     /// Looks again, lets the other foot try again, or gives up: a step was taken back.
     pub(super) fn after_misstep(&mut self, tick: &Tick<'_>, misstep: Misstep, landed: usize) {
+        if let Some(reason) = stepper::given_up(misstep) {
+            self.refuse(reason);
+            return;
+        }
         self.memory.tries.missteps += 1;
         let what = told(misstep);
         let holds = self.stepper.holds.clone();

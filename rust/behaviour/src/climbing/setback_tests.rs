@@ -42,6 +42,23 @@ fn a_walk_that_comes_upon_it_again_and_again_is_given_up_where_it_is() {
     assert!(simulation.pose().x_m <= 0.2);
 }
 
+#[test]
+fn a_robot_whose_leg_buckles_on_a_step_tries_no_other_and_says_which_leg_it_was() {
+    let mut simulation = up(PlanarPose::default());
+    simulation.weak = true;
+    let (outcome, _) = simulation.run(120.0);
+    let Some(Outcome::Refused(reason)) = &outcome else {
+        panic!("{outcome:?} {:?}", simulation.states);
+    };
+    let stands_higher = usize::from(simulation.feet[1].height_m > 0.01);
+    let leg = ["left", "right"][stands_higher];
+    assert!(
+        reason.starts_with(&format!("sensor: the {leg} leg")),
+        "{reason}"
+    );
+    assert_eq!(on_stairs(&simulation), 1);
+}
+
 fn on_stairs(simulation: &Simulation) -> usize {
     simulation
         .feet

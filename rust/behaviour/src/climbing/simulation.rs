@@ -60,6 +60,8 @@ pub(crate) struct Simulation {
     pub(crate) planned_within_m: f64,
     /// Each landing is this far off, m and rad.
     pub(crate) landing_error: PlanarPose,
+    /// A leg buckles when it is to carry the robot on a step.
+    pub(crate) weak: bool,
     pub(crate) obstacle: Option<[f64; 3]>,
     /// The plan leads over the edges this far to the left of their middle, m.
     pub(crate) way_aside_m: f64,
@@ -113,6 +115,7 @@ impl Simulation {
             planning: true,
             planned_within_m: f64::INFINITY,
             landing_error: PlanarPose::default(),
+            weak: false,
             obstacle: None,
             way_aside_m: 0.0,
             unseen_edge_m: None,

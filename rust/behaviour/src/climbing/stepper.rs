@@ -1,6 +1,7 @@
 //! Gives a list of footsteps to the walker until it stands again.
 
 use geometry::PlanarPose;
+use robot::Side;
 
 use crate::{Footstep, Misstep, Motion, Situation, climbing::tuning::StepperTuning};
 
@@ -17,6 +18,20 @@ pub(crate) enum Stepped {
     Missed(Misstep, usize),
     /// The walker did not end it in time.
     Stuck,
+}
+
+/// Why the robot gives up at once after such a misstep; `None` where another step may do.
+pub(crate) fn given_up(misstep: Misstep) -> Option<String> {
+    let Misstep::Buckled(side) = misstep else {
+        return None;
+    };
+    let leg = match side {
+        Side::Left => "left",
+        Side::Right => "right",
+    };
+    Some(format!(
+        "sensor: the {leg} leg does not bear the robot: it buckled at a step, its joints did not get where they were told"
+    ))
 }
 
 /// One list at a time.

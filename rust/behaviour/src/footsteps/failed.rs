@@ -86,7 +86,7 @@ impl Failed {
             let height_m = match misstep {
                 Misstep::NoGround => hold.height_m - out_of_reach_m,
                 // The body has room above it.
-                Misstep::Obstructed => hold.height_m + rise_m,
+                Misstep::Obstructed | Misstep::Buckled(_) => hold.height_m + rise_m,
             };
             for cell in cells_under(map, &hold.pose, half_m) {
                 map.set(cell, height_m as f32, 0.0);

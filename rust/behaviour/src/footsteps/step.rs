@@ -7,7 +7,7 @@ use robot::Side;
 use super::Footsteps;
 use super::progress::Since;
 use super::route::{LastSteps, after, told};
-use crate::climbing::stepper::Stepped;
+use crate::climbing::stepper::{self, Stepped};
 use crate::machine::Tick;
 use crate::{Footstep, Misstep, Motion};
 
@@ -131,13 +131,19 @@ impl Footsteps {
         if let Some(hold) = self.stepper.holds.get(landed) {
             self.failed.note(*hold, misstep);
         }
+        if let Some(reason) = stepper::given_up(misstep) {
+            self.refuse(reason);
+            return;
+        }
         self.last = LastSteps::default();
         if self.failed.count() > self.config.tries as usize {
             self.refuse(match misstep {
                 Misstep::NoGround => {
                     "blocked: a foot found no ground where steps were planned".to_owned()
                 }
-                Misstep::Obstructed => "blocked: something was in the way of a foot".to_owned(),
+                Misstep::Obstructed | Misstep::Buckled(_) => {
+                    "blocked: something was in the way of a foot".to_owned()
+                }
             });
             return;
         }

@@ -81,6 +81,14 @@ settings! {
 }
 
 settings! {
+    /// When a leg buckles under a listed step.
+    pub struct BucklingTuning("gait.tuning.buckling") {
+        /// How far a joint of the leg that carries falls behind what it is told; 0.015 are the most in steps that go well.
+        behind: f64 = 0.04, "rad", POSITIVE;
+    }
+}
+
+settings! {
     /// When a listed step is begun anew because the robot tips.
     pub struct TippingTuning("gait.tuning.tipping") {
         /// How often in a list a foot is put down again; a robot that still tips is better off with the step behind it.

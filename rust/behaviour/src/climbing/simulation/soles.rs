@@ -44,7 +44,11 @@ impl Simulation {
             self.truth_m([x_m, y_m])
         });
         let highest_m = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        if highest_m < told_m - 0.012 {
+        let carries = step.side.other();
+        let bends = self.feet[carries.index()].height_m > self.feet[step.side.index()].height_m;
+        if bends && self.weak {
+            self.stepping.misstep = Some(Misstep::Buckled(carries));
+        } else if highest_m < told_m - 0.012 {
             self.stepping.misstep = Some(Misstep::NoGround);
         } else if highest_m > told_m + 0.012 {
             self.stepping.misstep = Some(Misstep::Obstructed);
