@@ -4,22 +4,33 @@
 //! and further. Half a second later the robot lies. The foot goes back to where it left, both legs carry again, and the list is given up.
 
 use behaviour::Misstep;
+use nalgebra::Vector2;
 use robot::{Body, Side};
 use sensing::Observation;
 
+use crate::dcm_walker::DcmWalker;
 use crate::gait::Gait;
 use crate::phase::{CarefulLanding, GaitPhase, Manner, Swing};
 use crate::swing;
 use crate::targets::JointTargets;
 
 /// How far the joint of each leg that is furthest from what it was told is from that, rad.
-pub(crate) fn behind_rad(body: &Body, told: &JointTargets, observation: &Observation) -> [f64; 2] {
+fn behind_rad(body: &Body, told: &JointTargets, observation: &Observation) -> [f64; 2] {
     Side::BOTH.map(|side| {
         let joints = body.leg_joints(side).iter();
         let read_rad = &observation.joint_positions_rad;
         let off_rad = joints.map(|&joint| (told.positions_rad[joint] - read_rad[joint]).abs());
         off_rad.fold(0.0, f64::max)
     })
+}
+
+impl DcmWalker {
+    /// Puts a careful foot down again because of the DCM's `error` or of a leg that buckles.
+    pub(crate) fn put_down_in_time(&mut self, error: &Vector2<f64>, observation: &Observation) {
+        self.gait.catch_tipping(error);
+        let behind_rad = behind_rad(&self.body, &self.targets, observation);
+        self.gait.catch_buckling(behind_rad);
+    }
 }
 
 impl Gait {
@@ -75,7 +86,7 @@ mod tests {
     fn a_foot_goes_back_to_where_it_left_and_the_list_is_given_up_when_the_other_leg_buckles() {
         let mut gait = stepping(Manner::Careful, 0.15);
         let height_m = gait.foot(Side::Left).z_m;
-        gait.catch_buckling([0.0, 0.05]);
+        gait.catch_buckling([0.0, 0.1]);
         assert_eq!(gait.stepping().misstep, Some(Misstep::Buckled(Side::Right)));
         assert!(height_m > 0.005 && gait.foot(Side::Left).z_m == height_m);
         for _ in 0..200 {
@@ -89,7 +100,7 @@ mod tests {
     #[test]
     fn legs_that_bear_feet_that_are_gone_and_walks_go_on() {
         for (manner, share, behind_rad) in [
-            (Manner::Careful, 0.15, [0.0, 0.03]),
+            (Manner::Careful, 0.15, [0.0, 0.06]),
             (Manner::Careful, 0.15, [0.3, 0.0]),
             (Manner::Careful, 0.5, [0.0, 0.3]),
             (Manner::Placed, 0.15, [0.0, 0.3]),

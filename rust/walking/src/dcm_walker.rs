@@ -10,7 +10,6 @@ use sensing::{Observation, TICK_S};
 use crate::ankles::Ankles;
 use crate::arms::ArmsControl;
 use crate::balance::{Balance, Sensed};
-use crate::buckling::behind_rad;
 use crate::capture::Capture;
 use crate::catching::Catching;
 use crate::config::GaitConfig;
@@ -41,7 +40,7 @@ pub(crate) use telling::PART;
 /// Walks. One a robot; see the crate's page for the parts.
 #[derive(Debug, Clone)]
 pub struct DcmWalker {
-    body: Body,
+    pub(crate) body: Body,
     config: GaitConfig,
     weight_n: f64,
     head: HeadControl,
@@ -59,7 +58,7 @@ pub struct DcmWalker {
     com: Vector2<f64>,
     reference: GaitReference,
     pub(crate) pressure: Pressure,
-    targets: JointTargets,
+    pub(crate) targets: JointTargets,
     last_ns: Option<u64>,
     met: Option<Met>,
 }
@@ -128,9 +127,7 @@ impl DcmWalker {
         self.sense(observation, state, passed_s);
         let error = self.balance.dcm() - self.reference.dcm;
         let omega = self.balance.omega;
-        self.gait.catch_tipping(&error);
-        let behind_rad = behind_rad(&self.body, &self.targets, observation);
-        self.gait.catch_buckling(behind_rad);
+        self.put_down_in_time(&error, observation);
         let felt = self.feel(observation, state);
         let frame = self.frame(&felt);
         self.list.take(&command.motion, &mut self.gait, frame);
