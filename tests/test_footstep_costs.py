@@ -15,6 +15,7 @@ def test_each_plan_has_a_row_that_adds_up() -> None:
         walked=1.5,
         careful=2.5,
         partial=0.3,
+        margin=0.4,
         turns=0.2,
         unseen=4.0,
         expanded=80,

@@ -182,9 +182,19 @@ def test_what_a_walker_tells_that_makes_no_sense_ends_the_episode(
 
 
 @pytest.mark.parametrize(
+    "misstep", [None, "no_ground", "obstructed", "left_leg_buckled", "right_leg_buckled"]
+)
+def test_a_walker_of_the_users_tells_how_a_step_was_taken_back(misstep: str | None) -> None:
+    assert Stepping(1, misstep=misstep).misstep == misstep
+
+
+@pytest.mark.parametrize(
     ("words", "message"),
     [
-        ({"misstep": "slipped"}, "misstep must be no_ground, obstructed or None, got slipped"),
+        (
+            {"misstep": "slipped"},
+            "misstep must be no_ground, .*right_leg_buckled or None, got slipped",
+        ),
         ({"height_error": np.nan}, "height_error must be finite"),
     ],
 )

@@ -22,6 +22,7 @@ class PlannedFootstep:
         manner: as the robot walks, or carefully, from a stand.
         time: that the step takes, s.
         partial: what it costs that the sole bears in part, s.
+        margin: what it costs that not all of the ground beside it is known and within reach, s.
         turn: what it costs that the foot turns, s.
     """
 
@@ -36,6 +37,7 @@ class PlannedFootstep:
     manner: Literal["walked", "careful"]
     time: float
     partial: float
+    margin: float
     turn: float
 
     def forward(self) -> tuple[float, float]:
@@ -45,7 +47,7 @@ class PlannedFootstep:
     @property
     def cost(self) -> float:
         """What the step costs, s."""
-        return self.time + self.partial + self.turn
+        return self.time + self.partial + self.margin + self.turn
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -94,8 +96,8 @@ def plan_of(found: Mapping[str, Any]) -> FootstepPlan:
     if found.get("reason") is not None:
         return FootstepPlan((), found["reason"], refused=found.get("refused"))
     steps = [
-        PlannedFootstep(side, x, y, yaw, height, slope, bearing, share, manner, time, partial, turn)
-        for (side, manner), (time, partial, turn), (x, y, yaw), stands in found["steps"]
+        PlannedFootstep(side, x, y, yaw, height, slope, bearing, share, manner, *costs)
+        for (side, manner), costs, (x, y, yaw), stands in found["steps"]
         for height, slope, bearing, share in [stands]
     ]
     return FootstepPlan(

@@ -32,6 +32,8 @@ class FootstepPlanEntry(Table):
     """The time of its careful steps, s."""
     partial: float = 0.0
     """What it costs that soles bear in part, s."""
+    margin: float = 0.0
+    """What it costs that ground beside the feet is not known or out of reach, s."""
     turns: float = 0.0
     """What it costs that feet turn, s."""
     unseen: float = 0.0

@@ -98,6 +98,7 @@ def _entry(plan: FootstepPlan, time: float) -> FootstepPlanEntry:
         walked=seconds("walked"),
         careful=seconds("careful"),
         partial=sum(step.partial for step in plan),
+        margin=sum(step.margin for step in plan),
         turns=sum(step.turn for step in plan),
         unseen=max(plan.whole_cost - plan.cost, 0.0),
         expanded=plan.expanded,

@@ -13,10 +13,16 @@ def footstep_costs(result: Result) -> TableData:
             *(
                 f"{seconds:.1f}"
                 for seconds in (
-                    plan.walked + plan.careful + plan.partial + plan.turns + plan.unseen,
+                    plan.walked
+                    + plan.careful
+                    + plan.partial
+                    + plan.margin
+                    + plan.turns
+                    + plan.unseen,
                     plan.walked,
                     plan.careful,
                     plan.partial,
+                    plan.margin,
                     plan.turns,
                     plan.unseen,
                 )
@@ -31,6 +37,7 @@ def footstep_costs(result: Result) -> TableData:
         "walked",
         "careful",
         "soles that bear in part",
+        "little room beside them",
         "turns",
         "on over what was not seen",
     )

@@ -107,7 +107,12 @@ fn as_dict(py: Python<'_>, plan: &FootstepPlan) -> PyResult<Py<PyDict>> {
         let (pose, foothold) = (&step.pose, &step.foothold);
         (
             (side_name(step.side), step.manner.name()),
-            (step.cost.time_s, step.cost.partial_s, step.cost.turn_s),
+            (
+                step.cost.time_s,
+                step.cost.partial_s,
+                step.cost.margin_s,
+                step.cost.turn_s,
+            ),
             (pose.x_m, pose.y_m, pose.yaw_rad),
             (
                 foothold.height_m,

@@ -169,11 +169,13 @@ mod tests {
                 slope: [0.0; 2],
                 bearing_m: [-0.05, 0.05],
                 bearing_share: 1.0,
+                closed_share: 0.0,
             },
             manner: StepManner::Careful,
             cost: StepCost {
                 time_s: 1.0,
                 partial_s: 0.0,
+                margin_s: 0.0,
                 turn_s: 0.0,
             },
         };

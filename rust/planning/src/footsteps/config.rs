@@ -19,6 +19,9 @@ settings! {
         sole_cells: usize = 200, "1", within(2.0, 1000.0);
         /// What it costs at most that a sole bears only in part.
         partial_cost: f64 = 1.0, "s", within(0.0, 100.0);
+        /// What it costs at most that ground beside a foot is not known or out of reach: at the side of a flight and at its corners it has little room,
+        /// and the next step less.
+        margin_cost: f64 = 1.5, "s", within(0.0, 100.0);
         /// What a turn of a foot costs beside its time: of two ways as long, the straight one.
         turn_cost: f64 = 0.1, "s/rad", within(0.0, 100.0);
         /// Ground whose height differs by no more from that of the standing foot is walked on; other heights take careful steps.

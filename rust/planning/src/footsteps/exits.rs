@@ -35,12 +35,14 @@ impl FootstepSpace<'_> {
         (near || turn_rad.abs() <= faces_rad).then_some(exit_m)
     }
 
-    /// What the way costs on from a foot before ground that was not seen, s.
+    /// What the way costs on from a foot before ground that was not seen, s: there is no more room beside the feet there than here.
     pub(super) fn on_from_s(&self, foot: &StandingFoot) -> Option<f64> {
         let [x_m, y_m] = self.table.middle_m(&foot.pose, foot.heading, foot.side);
         let on_s = || self.field.remaining_s(x_m, y_m);
-        self.exit_from(foot)
-            .map(|_| self.config.look_cost + self.config.field_short * on_s())
+        self.exit_from(foot).map(|_| {
+            let dear_s = self.config.look_cost + self.config.margin_cost;
+            dear_s + self.config.field_short * on_s()
+        })
     }
 }
 

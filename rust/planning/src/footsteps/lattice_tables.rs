@@ -36,7 +36,12 @@ impl LatticeTables {
         let foothold = config.foothold.clone();
         // Feet stand in the middles of cells.
         let on = ([0.0; 2], cell_m);
-        let footholds = Footholds::new(foothold, limits.sole, steps[0].yaws_rad(), on);
+        let footholds = Footholds::new(
+            foothold,
+            (limits.sole, limits.careful_rise_m),
+            steps[0].yaws_rad(),
+            on,
+        );
         Self {
             cell_m,
             steps,
@@ -61,6 +66,7 @@ pub(super) fn stand(
             slope: [0.0; 2],
             bearing_m: [0.0; 2],
             bearing_share: 0.0,
+            closed_share: 1.0,
         };
         let foothold = read.or_else(|| map.height_m(cell).map(on_height));
         let foothold = foothold.ok_or(NoFootsteps::UnseenStart(side))?;

@@ -46,6 +46,8 @@ pub struct StepCost {
     pub time_s: f64,
     /// That the sole bears only in part.
     pub partial_s: f64,
+    /// That not all of the ground beside the foot is known and within reach.
+    pub margin_s: f64,
     /// That the foot turns.
     pub turn_s: f64,
 }
@@ -53,7 +55,7 @@ pub struct StepCost {
 impl StepCost {
     /// All of it, s.
     pub fn total_s(&self) -> f64 {
-        self.time_s + self.partial_s + self.turn_s
+        self.time_s + self.partial_s + self.margin_s + self.turn_s
     }
 }
 

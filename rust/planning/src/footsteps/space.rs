@@ -146,6 +146,7 @@ impl FootstepSpace<'_> {
             cost: StepCost {
                 time_s,
                 partial_s: config.partial_cost * missing / most,
+                margin_s: config.margin_cost * f64::from(there.foothold.closed_share),
                 turn_s: config.turn_cost * turn_rad,
             },
         })

@@ -80,7 +80,11 @@ pub(super) fn smooth_levels(levels_m: &mut [f32], guessed: &[bool], cols: i32, r
 
 #[cfg(test)]
 mod tests {
+    use geometry::PlanarPose;
+
     use super::*;
+    use crate::footsteps::tests::{LIMITS, flight, goal, map};
+    use crate::footsteps::{FootstepLayer, FootstepsConfig};
 
     #[test]
     fn what_was_not_seen_is_as_high_as_what_is_nearest_and_low_where_that_is_as_near() {
@@ -108,5 +112,31 @@ mod tests {
             assert!((pair[1] - pair[0] - 0.02).abs() < 5e-3, "{levels_m:?}");
         }
         smooth_levels(&mut [], &[], 0, 8);
+    }
+
+    #[test]
+    fn of_two_ways_feet_take_the_one_beside_which_the_ground_is_known() {
+        // A flight of 0.8 m, of which nothing is known to its left; the goal is there, behind it.
+        let flight = map(|x_m, y_m| {
+            if (0.4..0.8).contains(&x_m) && y_m > 0.2 {
+                return f64::NAN;
+            }
+            flight(x_m, 0.4, (0.03, 0.13, 4))
+        });
+        let farthest_m = |margin_cost: f64| {
+            let config = FootstepsConfig {
+                margin_cost,
+                ..FootstepsConfig::default()
+            };
+            let mut layer = FootstepLayer::new(config, LIMITS).unwrap();
+            let feet = layer.feet_around(&PlanarPose::new(0.1, 0.1, 0.0));
+            let plan = layer.plan(&flight, feet, &goal(1.3, 0.2)).unwrap();
+            let on_it = (plan.steps.iter()).filter(|step| (0.4..0.8).contains(&step.pose.x_m));
+            on_it
+                .map(|step| step.pose.y_m)
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
+        let (any_m, known_m) = (farthest_m(0.0), farthest_m(1.5));
+        assert!(known_m < any_m - 0.03, "{any_m} {known_m}");
     }
 }

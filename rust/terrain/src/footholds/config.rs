@@ -15,6 +15,8 @@ settings! {
         middle: f64 = 0.02, "m", within(0.0, 1.0);
         /// Nothing that is higher than what bears stands nearer to the sole: edges are known to a cell.
         higher_margin: f64 = 0.01, "m", within(0.0, 1.0);
+        /// Ground so near to a sole belongs to its surroundings: how much of that is closed to the next step counts.
+        margin: f64 = 0.04, "m", within(0.0, 1.0);
         /// Steepest ground that a sole stands on.
         most_tilt: f64 = 0.16, "rad", within(0.0, 1.0);
     }

@@ -19,6 +19,8 @@ pub struct Foothold {
     pub bearing_m: [f32; 2],
     /// Share of its cells that bears.
     pub bearing_share: f32,
+    /// Share of the ground close beside it that is closed to the next step: not known, or higher or lower than a leg climbs.
+    pub closed_share: f32,
 }
 
 /// Why a sole does not stand at a place.
@@ -39,6 +41,8 @@ pub enum NoFoothold {
 pub struct Footholds {
     config: FootholdConfig,
     sole: SoleSize,
+    /// The highest that a leg climbs, m.
+    rise_m: f32,
     /// One for each heading.
     rasters: Vec<SoleRaster>,
     ground: Vec<PlaceUnder>,
@@ -46,18 +50,20 @@ pub struct Footholds {
 }
 
 impl Footholds {
-    /// For soles at these headings, rad, whose middles lie `off_m` from the centres of cells of this size.
+    /// For soles at these headings, rad, whose middles lie `off_m` from the centres of cells of this size, of legs that climb no higher than
+    /// `rise_m`.
     pub fn new(
         config: FootholdConfig,
-        sole: SoleSize,
+        (sole, rise_m): (SoleSize, f64),
         yaws_rad: impl Iterator<Item = f64>,
         (off_m, cell_m): ([f64; 2], f64),
     ) -> Self {
-        let margin_m = config.higher_margin;
-        let raster = |yaw_rad| SoleRaster::new(sole, yaw_rad, off_m, cell_m, margin_m);
+        let margins_m = [config.higher_margin, config.margin];
+        let raster = |yaw_rad| SoleRaster::new(sole, yaw_rad, off_m, cell_m, margins_m);
         Self {
             config,
             sole,
+            rise_m: rise_m as f32,
             rasters: yaws_rad.map(raster).collect(),
             ground: Vec::new(),
             strips: Vec::new(),
@@ -108,9 +114,8 @@ impl Footholds {
         }
         let bears =
             |strip: usize| f32::from(strips[strip]) >= least * f32::from(raster.strips[strip]);
-        let [from, to] = run_around_middle(strips.len(), bears);
         let edge_m = |strip: usize| strip as f64 * raster.strip_m - raster.half_length_m;
-        let bearing_m = [edge_m(from), edge_m(to)];
+        let bearing_m = run_around_middle(strips.len(), bears).map(edge_m);
         let bearing_share = bearing / all;
         if bearing_share < least || bearing_m[0] > -config.middle || bearing_m[1] < config.middle {
             return Err(NoFoothold::TooLittle);
@@ -132,6 +137,7 @@ impl Footholds {
             slope: plane.slope,
             bearing_m: bearing_m.map(|place_m| place_m as f32),
             bearing_share,
+            closed_share: raster.closed_share(map, middle, [plane.height_m, self.rise_m]),
         })
     }
 

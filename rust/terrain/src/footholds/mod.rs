@@ -6,6 +6,7 @@ mod foothold;
 mod high_blocks;
 mod raster;
 mod resting_plane;
+mod surroundings;
 
 pub use config::FootholdConfig;
 pub use foothold::{Foothold, Footholds, NoFoothold};

@@ -36,6 +36,8 @@ pub(super) struct CellUnder {
 pub struct SoleRaster {
     pub(super) under: Vec<CellUnder>,
     pub(super) around: Vec<CellUnder>,
+    /// Every second cell of its surroundings, as columns and rows from the cell of its middle.
+    pub(super) beside: Vec<[i32; 2]>,
     /// The plane through all cells under it.
     pub(super) fit: PlaneFit,
     /// Cells in each strip across.
@@ -49,8 +51,14 @@ pub struct SoleRaster {
 
 impl SoleRaster {
     /// The cells of a lattice with cells of this size that a sole covers whose middle lies `off_m` from the centre of its cell, and those
-    /// of which a side is no further than `margin_m` beside it.
-    pub fn new(sole: SoleSize, yaw_rad: f64, off_m: [f64; 2], cell_m: f64, margin_m: f64) -> Self {
+    /// of which a side is no further than the first margin, m, beside it; its surroundings are those no further than the second.
+    pub fn new(
+        sole: SoleSize,
+        yaw_rad: f64,
+        off_m: [f64; 2],
+        cell_m: f64,
+        [margin_m, beside_m]: [f64; 2],
+    ) -> Self {
         let [half_length_m, half_width_m] = [0.5 * sole.length_m, 0.5 * sole.width_m];
         let count = (sole.length_m / cell_m).floor().max(1.0);
         let strip_m = sole.length_m / count;
@@ -58,6 +66,7 @@ impl SoleRaster {
         let mut raster = Self {
             under: Vec::new(),
             around: Vec::new(),
+            beside: Vec::new(),
             fit: PlaneFit::default(),
             strips: vec![0; count as usize],
             strip_m,
@@ -66,8 +75,9 @@ impl SoleRaster {
         };
         let map_from_sole = PlanarPose::new(off_m[0], off_m[1], yaw_rad);
         let sole_from_map = map_from_sole.inverse();
-        for row in -reach..=reach {
-            for col in -reach..=reach {
+        let farthest = reach.max(((sole.reach_m() + beside_m) / cell_m).ceil() as i32 + 1);
+        for row in -farthest..=farthest {
+            for col in -farthest..=farthest {
                 let (along_m, across_m) =
                     sole_from_map.apply(f64::from(col) * cell_m, f64::from(row) * cell_m);
                 let beyond_m = (along_m.abs() - half_length_m).max(across_m.abs() - half_width_m);
@@ -82,6 +92,9 @@ impl SoleRaster {
                     raster.under.push(cell);
                 } else if beyond_m - 0.5 * cell_m <= margin_m {
                     raster.around.push(cell);
+                }
+                if beyond_m > 0.0 && beyond_m <= beside_m && (col + row) % 2 == 0 {
+                    raster.beside.push([col, row]);
                 }
             }
         }
@@ -102,7 +115,7 @@ mod tests {
             yaw_rad in -4.0..4.0f64, x in -0.005..0.005f64, y in -0.005..0.005f64,
         ) {
             let sole = SoleSize { length_m: 0.105, width_m: 0.075 };
-            let raster = SoleRaster::new(sole, yaw_rad, [x, y], 0.01, 0.01);
+            let raster = SoleRaster::new(sole, yaw_rad, [x, y], 0.01, [0.01, 0.04]);
             let area = sole.length_m * sole.width_m / 1e-4;
             prop_assert!((raster.under.len() as f64 - area).abs() < 0.18 * area);
             let counted: usize = raster.strips.iter().map(|&cells| usize::from(cells)).sum();

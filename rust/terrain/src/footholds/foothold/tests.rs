@@ -8,6 +8,7 @@ const SOLE: SoleSize = SoleSize {
     length_m: 0.105,
     width_m: 0.075,
 };
+const RISE_M: f64 = 0.055;
 const CELL_M: f64 = 0.01;
 
 /// A square metre around the origin.
@@ -30,7 +31,12 @@ fn stand(map: &HeightMap, x_m: f64, y_m: f64, yaw_rad: f64) -> Result<Foothold, 
     let [center_x_m, center_y_m] = map.lattice.center_of(middle);
     let off_m = [x_m - center_x_m, y_m - center_y_m];
     let config = FootholdConfig::default();
-    let mut footholds = Footholds::new(config, SOLE, std::iter::once(yaw_rad), (off_m, CELL_M));
+    let mut footholds = Footholds::new(
+        config,
+        (SOLE, RISE_M),
+        std::iter::once(yaw_rad),
+        (off_m, CELL_M),
+    );
     footholds.read(map, middle, 0)
 }
 
@@ -102,7 +108,12 @@ fn a_bar_between_two_places_is_in_the_way_of_a_foot_that_is_not_lifted_over_it()
     });
     let blocks = HighBlocks::new(&bar);
     let config = FootholdConfig::default();
-    let footholds = Footholds::new(config, SOLE, std::iter::once(0.0), ([0.0; 2], CELL_M));
+    let footholds = Footholds::new(
+        config,
+        (SOLE, RISE_M),
+        std::iter::once(0.0),
+        ([0.0; 2], CELL_M),
+    );
     let place = |x_m: f64| PlanarPose::new(x_m, 0.0, 0.0);
     let free = |from_m: f64, to_m: f64, than_m: f32| {
         let (from, to) = (place(from_m), place(to_m));
@@ -164,7 +175,12 @@ fn nothing_is_in_the_way_where_the_foot_stands_but_what_is_high_ahead_is() {
             }
         });
         let config = FootholdConfig::default();
-        let footholds = Footholds::new(config, SOLE, std::iter::once(0.0), ([0.0; 2], CELL_M));
+        let footholds = Footholds::new(
+            config,
+            (SOLE, RISE_M),
+            std::iter::once(0.0),
+            ([0.0; 2], CELL_M),
+        );
         let places = [0.0, 0.15].map(|x_m| PlanarPose::new(x_m, 0.0, 0.0));
         let (from, to) = ((&places[0], 0), (&places[1], 0));
         footholds.is_way_free((&map, &HighBlocks::new(&map)), from, to, 0.03)
@@ -192,4 +208,21 @@ fn what_is_blurred_bears_nothing_and_is_in_the_way_where_it_is_high() {
     let cell = floor.lattice.cell_at(0.045, 0.0);
     floor.set_blurred(cell, 0.03);
     assert_eq!(stand(&floor, 0.0, 0.0, 0.0), Err(NoFoothold::Higher));
+}
+
+#[test]
+fn what_is_closed_beside_a_sole_is_unknown_or_out_of_reach_and_no_stair() {
+    let closed_share = |beyond_m: f64, away_m: f64| {
+        let map = map(|_, y_m| if y_m > 0.0375 + away_m { beyond_m } else { 0.1 });
+        stand(&map, 0.0, 0.0, 0.0).unwrap().closed_share
+    };
+    for open_m in [0.1, 0.06, 0.14] {
+        assert_eq!(closed_share(open_m, 0.02), 0.0, "{open_m}");
+    }
+    for closed_m in [f64::NAN, 0.0, 0.2] {
+        let near = closed_share(closed_m, 0.02);
+        assert!((0.1..0.2).contains(&near), "{closed_m} {near}");
+        assert!(closed_share(closed_m, 0.01) > near);
+        assert_eq!(closed_share(closed_m, 0.05), 0.0);
+    }
 }
