@@ -76,7 +76,7 @@ def test_obstacles_floors_and_the_unknown_are_to_be_seen(tmp_path: Path) -> None
 
 def test_soles_are_drawn_where_they_were_planned_and_where_they_came_down(tmp_path: Path) -> None:
     step = PlannedFootstep(
-        "left", 0.5, 0.04, 0.3, 0.03, (0.0, 0.0), (-0.05, 0.05), 0.8, "careful", 1.2, 0.1, 0.2
+        "left", 0.5, 0.04, 0.3, 0.03, (0.0, 0.0), (-0.05, 0.05), 0.8, "careful", 1.2, 0.1, 0.0, 0.2
     )
     plan = FootstepPlan((step,), cost=1.5, whole_cost=4.0, expanded=7)
     memory = StepMemory()

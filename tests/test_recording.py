@@ -95,7 +95,7 @@ def test_planned_footsteps_are_drawn_with_the_ground_and_their_cost(
     tmp_path: Path, made: World
 ) -> None:
     step = PlannedFootstep(
-        "left", 0.1, 0.04, 0.3, 0.03, (0.0, 0.0), (-0.05, 0.05), 0.8, "careful", 1.2, 0.1, 0.0
+        "left", 0.1, 0.04, 0.3, 0.03, (0.0, 0.0), (-0.05, 0.05), 0.8, "careful", 1.2, 0.1, 0.0, 0.0
     )
     ground = np.full((40, 50), 0.0, np.float32)
     ground[:, 30:] = np.nan

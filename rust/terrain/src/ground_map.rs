@@ -9,7 +9,7 @@ mod stair_edges;
 mod under_soles;
 
 use geometry::{Cell, CellArea, Grid, Lattice, PlanarPose};
-use mapping::{FloorView, HeightMap};
+use mapping::{FloorView, HeightMap, Surface};
 use stairs::Staircase;
 
 pub use config::GroundMapConfig;
@@ -114,9 +114,11 @@ impl GroundMap {
         let cols = size(area.min.col, area.max.col);
         let rows = size(area.min.row, area.max.row);
         self.plain = Grid::filled(cols, rows, Plain::Unseen);
-        let view = without_strays(view, area, &self.config);
+        let cleaned = without_strays(view, area, &self.config);
         for (index, cell) in area.cells().enumerate() {
-            self.plain.values_mut()[index] = Plain::of(&view, cell, &self.config);
+            let plain = Plain::of(&cleaned, cell, &self.config);
+            let unseen = matches!(view.cell(cell), Surface::Unknown);
+            self.plain.values_mut()[index] = if unseen { plain } else { plain.seen() };
         }
     }
 
@@ -126,7 +128,10 @@ impl GroundMap {
         let cell_m = self.map.lattice.cell_m * f64::from(fine);
         let near_m = self.config.edge_cells * cell_m;
         let (mut edges, mut levels_m) = (Vec::new(), Vec::new());
-        if matches!(plain, Plain::Border(_) | Plain::Obstacle(_)) {
+        if matches!(
+            plain,
+            Plain::Border(_) | Plain::Between | Plain::Obstacle(_)
+        ) {
             edges = self.edges.near(middle_m, near_m);
             levels_m.extend(edges.iter().flat_map(|edge| edge.levels_m));
         }
@@ -151,11 +156,14 @@ impl GroundMap {
                     (Some(height_m), _) => self.map.set(at, height_m, sigma_m),
                     (
                         None,
-                        Plain::Level(about_m) | Plain::Border(about_m) | Plain::Missing(about_m),
+                        Plain::Level(about_m)
+                        | Plain::Border(about_m)
+                        | Plain::Missing(about_m)
+                        | Plain::Speck(about_m),
                     ) => {
                         self.map.set_blurred(at, about_m);
                     }
-                    (None, Plain::Unseen | Plain::Obstacle(_)) => {}
+                    (None, Plain::Unseen | Plain::Between | Plain::Obstacle(_)) => {}
                 }
             }
         }
@@ -164,8 +172,8 @@ impl GroundMap {
     /// The height where no known edge is near, m. Where in a cell two levels meet is not known: there is none.
     fn plain_height_m(&self, plain: Plain, cell: Cell) -> Option<f32> {
         match plain {
-            Plain::Unseen | Plain::Missing(_) | Plain::Border(_) => None,
-            Plain::Level(height_m) => Some(height_m),
+            Plain::Unseen | Plain::Between | Plain::Speck(_) | Plain::Border(_) => None,
+            Plain::Level(height_m) | Plain::Missing(height_m) => Some(height_m),
             Plain::Obstacle(top_m) => Some(self.out_of_reach_m(top_m, cell)),
         }
     }

@@ -11,8 +11,12 @@ use super::config::GroundMapConfig;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Plain {
     Unseen,
-    /// Not seen, in the midst of what is on one level, m.
+    /// Not seen, in the midst of what is on one level, m: no sole sinks into so little.
     Missing(f32),
+    /// Not seen, in the midst of ground on more than one level.
+    Between,
+    /// Probably a false match of the camera's, in the midst of what is on one level, m.
+    Speck(f32),
     /// Ground on which no other level borders, m.
     Level(f32),
     /// Ground beside another level or none, m: where in the cell it ends is not known.
@@ -26,7 +30,20 @@ impl Plain {
     pub(super) const fn ground_m(self) -> Option<f32> {
         match self {
             Self::Level(height_m) | Self::Border(height_m) => Some(height_m),
-            Self::Unseen | Self::Missing(_) | Self::Obstacle(_) => None,
+            Self::Unseen
+            | Self::Missing(_)
+            | Self::Between
+            | Self::Speck(_)
+            | Self::Obstacle(_) => None,
+        }
+    }
+
+    /// The same where something was seen that is no ground: it may be no false match.
+    pub(super) const fn seen(self) -> Self {
+        match self {
+            Self::Missing(height_m) => Self::Speck(height_m),
+            Self::Between => Self::Unseen,
+            other => other,
         }
     }
 
@@ -102,7 +119,7 @@ fn is_speck(view: &FloorView, cell: Cell, specks: usize) -> bool {
     obstacles.take(specks + 1).count() <= specks
 }
 
-/// What a cell is of which nothing is known: what is missing in the midst of one level is no end of it.
+/// What a cell is of which nothing is known: what is missing in the midst of ground is no end of it.
 fn missing(view: &FloorView, cell: Cell, (level_m, surrounded): (f32, usize)) -> Plain {
     let floor = |other: Cell| match view.cell(other) {
         Surface::Floor(height_m) => Some(height_m),
@@ -115,9 +132,11 @@ fn missing(view: &FloorView, cell: Cell, (level_m, surrounded): (f32, usize)) ->
             (height_m.min(lowest_m), height_m.max(highest_m), count + 1)
         },
     );
-    if count >= surrounded && highest_m - lowest_m <= level_m {
+    if count < surrounded {
+        Plain::Unseen
+    } else if highest_m - lowest_m <= level_m {
         Plain::Missing(lowest_m)
     } else {
-        Plain::Unseen
+        Plain::Between
     }
 }

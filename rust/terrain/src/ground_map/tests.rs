@@ -139,17 +139,40 @@ fn where_only_the_fit_of_an_edge_ended_the_platform_goes_on() {
 }
 
 #[test]
-fn what_is_missing_in_the_midst_of_a_level_or_looks_like_an_obstacle_of_one_cell_is_crossed() {
-    for odd in [Surface::Unknown, Surface::Obstacle(0.3)] {
+fn what_is_missing_in_the_midst_of_a_level_is_ground_and_an_obstacle_of_one_cell_is_crossed() {
+    let odds = [
+        (Surface::Unknown, (Some(0.0), None)),
+        (Surface::Obstacle(0.3), (None, Some(0.0))),
+    ];
+    for (odd, told) in odds {
         let view = view(|x_m, y_m| {
             let here = (x_m - 0.5).abs() < 0.02 && (y_m - 0.5).abs() < 0.02;
             if here { odd } else { Surface::Floor(0.0) }
         });
         let map = read(&view, Vec::new());
         let cell = map.lattice.cell_at(0.5, 0.5);
-        assert_eq!((map.height_m(cell), map.blurred_m(cell)), (None, Some(0.0)));
+        assert_eq!((map.height_m(cell), map.blurred_m(cell)), told);
         assert_eq!(height_m(&map, 0.44, 0.5), Some(0.0));
     }
+}
+
+#[test]
+fn what_is_missing_on_a_tread_is_as_high_as_the_side_of_the_edge_on_which_it_lies() {
+    // The edge runs through the cell that was not seen.
+    let view = view(|x_m, y_m| {
+        let here = (x_m - 0.42).abs() < 0.02 && (y_m - 0.1).abs() < 0.02;
+        let height_m = if x_m > 0.41 { 0.03 } else { 0.0 };
+        if here {
+            Surface::Unknown
+        } else {
+            Surface::Floor(height_m)
+        }
+    });
+    let map = read(&view, vec![edge(0.41, 1.2, [0.0, 0.03])]);
+    assert_eq!(height_m(&map, 0.404, 0.1), Some(0.0));
+    assert_eq!(height_m(&map, 0.434, 0.1), Some(0.03));
+    let untold = read(&view, Vec::new());
+    assert_eq!(height_m(&untold, 0.434, 0.1), None);
 }
 
 #[test]
