@@ -165,7 +165,11 @@ impl Perception {
         let _own_pixels =
             self.self_filter
                 .mask(&mut self.scan, &body_then.links, &torso_from_camera);
-        self.scenes.look(&self.scan, &body_then.odometry_from_robot);
+        self.scenes.look(
+            &self.scan,
+            &body_then.odometry_from_robot,
+            body_then.tilt_rad(),
+        );
         let predicted = timing.measure(Stage::Localize, || {
             localizer.see(&self.scan)?;
             localizer.estimate(body_then)

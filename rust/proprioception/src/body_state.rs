@@ -39,3 +39,11 @@ pub struct BodyState {
     /// The torso in the robot's frame.
     pub robot_from_torso: Pose<Robot, Torso>,
 }
+
+impl BodyState {
+    /// How far the torso is tilted against gravity, rad.
+    pub fn tilt_rad(&self) -> f64 {
+        let up = self.odometry_from_torso_rotation * Vector3::z();
+        libm::acos(up.z.clamp(-1.0, 1.0))
+    }
+}

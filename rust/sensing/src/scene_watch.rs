@@ -54,8 +54,17 @@ impl SceneWatch {
         self.turned.as_ref()
     }
 
-    /// Takes in a picture, of which the robot itself was taken out, with where the robot was by the legs.
-    pub fn look(&mut self, scan: &Scan, odometry_from_robot: &Pose<Odometry, Robot>) {
+    /// Takes in a picture, of which the robot itself was taken out, with where the robot was by the legs, and how far its torso was tilted, rad.
+    pub fn look(
+        &mut self,
+        scan: &Scan,
+        odometry_from_robot: &Pose<Odometry, Robot>,
+        tilt_rad: f64,
+    ) {
+        if tilt_rad > self.config.upright {
+            (self.before, self.begin_ns, self.claimed) = (None, None, None);
+            return;
+        }
         let odometry_from_camera = *odometry_from_robot * scan.robot_from_camera;
         let begin_ns = *self.begin_ns.get_or_insert(scan.exposure_ns);
         let settled = seconds(begin_ns, scan.exposure_ns) > self.config.settling;

@@ -23,6 +23,8 @@ struct Trial {
     /// How the camera hangs in the head, and by what its disparities are multiplied.
     hangs: UnitQuaternion<f64>,
     scale: f32,
+    /// How far the torso is tilted.
+    tilt_rad: f64,
 }
 
 fn post(x_m: f64, y_m: f64) -> Block {
@@ -45,6 +47,7 @@ impl Trial {
             pan_rad: 0.0,
             hangs: UnitQuaternion::identity(),
             scale: 1.0,
+            tilt_rad: 0.0,
         }
     }
 
@@ -71,7 +74,8 @@ impl Trial {
         }
         scan.exposure_ns = self.pictures * PERIOD_NS;
         self.pictures += 1;
-        self.watch.look(&scan, &odometry_from_robot(self.legs));
+        self.watch
+            .look(&scan, &odometry_from_robot(self.legs), self.tilt_rad);
     }
 
     fn look_often(&mut self, times: u32) {
@@ -166,6 +170,22 @@ fn what_comes_or_goes_is_nobodys_fault() {
         trial.look_often(6);
         assert_eq!(trial.told(), [false, false], "{blocks:?}");
     }
+}
+
+#[test]
+fn of_a_robot_that_stumbles_and_stands_again_nothing_is_claimed() {
+    let tilted_by = |tilt_rad: f64| {
+        let mut trial = Trial::new(&slalom(), 3);
+        trial.look_often(20);
+        (trial.tilt_rad, trial.hangs) =
+            (tilt_rad, UnitQuaternion::from_euler_angles(0.05, 0.0, 0.0));
+        trial.look_often(5);
+        (trial.tilt_rad, trial.hangs) = (0.0, UnitQuaternion::identity());
+        trial.look_often(20);
+        trial.told()
+    };
+    assert_eq!(tilted_by(0.3), [false, false]);
+    assert_eq!(tilted_by(0.0), [false, true]);
 }
 
 #[test]

@@ -14,7 +14,9 @@ settings! {
         /// Largest turn of the camera between them: what the joints tell is off by degrees, and a turn about an axis that is off by
         /// as much leaves that share of it.
         turn: f64 = 0.15, "rad", POSITIVE;
-        /// Time from the first picture on in which nothing is claimed: the head comes to where it is held.
+        /// A torso that is tilted by more is that of a robot that stumbles: legs and gyroscope do not tell just where its camera is.
+        upright: f64 = 0.15, "rad", POSITIVE;
+        /// Time from the first picture of an upright robot on in which nothing is claimed: the head comes to where it is held.
         settling: f64 = 1.0, "s" of camera, POSITIVE;
         /// Pictures in a row that must contradict the last one that did not: one alone may be the head's jerk.
         pictures: u16 = 3, "1", at_least(1.0);
