@@ -38,7 +38,7 @@ impl Plain {
         }
     }
 
-    /// The same where something was seen that is no ground: it may be no false match.
+    /// What it says of a cell in which something was seen that is no ground: that may be no false match.
     pub(super) const fn seen(self) -> Self {
         match self {
             Self::Missing(height_m) => Self::Speck(height_m),
