@@ -4,6 +4,7 @@
 //! footsteps plans over the ground as it is known, planning anew after each. What was not seen is priced: a plan ends before it, and the
 //! robot looks.
 
+mod back;
 mod config;
 mod failed;
 mod listed;
@@ -28,6 +29,7 @@ use crate::{
     Behaviour, BehaviourError, Command, Decision, Motion, Outcome, PlannedFootsteps, Situation,
     StairClimbingConfig, WalkingBehaviour, WalkingConfig,
 };
+use back::Stances;
 pub use config::SteppingConfig;
 use failed::Failed;
 use listed::PlannersList;
@@ -66,6 +68,8 @@ pub struct Footsteps {
     failed: Failed,
     /// Where feet stood, as long as the robot steps.
     felt: Vec<SoleOnGround>,
+    /// How they stood, one stance after the other.
+    stances: Stances,
     /// The walk to the next height change.
     lead: Option<Lead>,
     /// How far it has come: from look to look, and from step to step.
@@ -118,6 +122,7 @@ impl Footsteps {
             walking,
             failed: Failed::default(),
             felt: Vec::new(),
+            stances: Stances::default(),
             lead: None,
             to_go: [CostToGo::default(); 2],
             looked_at_m: None,

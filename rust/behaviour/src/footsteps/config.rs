@@ -25,6 +25,8 @@ settings! {
         felt: usize = 12, "1", within(0.0, 1000.0);
         /// So many looks without a step between them are in vain, and so many times stepping is given up before the robot refuses.
         tries: u32 = 3, "1", within(1.0, 100.0);
+        /// So many steps that led nowhere are taken back, to look for others from there.
+        backs: u32 = 4, "1", within(0.0, 100.0);
         /// So many looks at one place that leave it unseen are enough.
         looks: u32 = 2, "1", within(1.0, 100.0);
         /// So often the way on may turn out longer than it had seemed and still count as getting on.

@@ -73,6 +73,9 @@ impl Footsteps {
             Ok(plan) => self.look_in_vain(tick, plan.exit_m, || {
                 "blocked: what lies ahead could not be seen".to_owned()
             }),
+            // No look shows more of the ground between the feet.
+            Err(NoFootsteps::NoSteps(_))
+                if self.looks > 0 && !self.stands_to_walk(tick) && self.step_back(tick) => {}
             Err(none) => self.look_in_vain(tick, None, || word(&none)),
         }
     }

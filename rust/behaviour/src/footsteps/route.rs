@@ -85,7 +85,10 @@ impl Footsteps {
     pub(super) fn feel(&mut self, tick: &Tick<'_>) {
         let apart_m = 0.5 * self.layer.limits().sole.width_m;
         let heights_m = Self::sole_heights_m(tick);
-        for (pose, height_m) in Self::soles(tick).into_iter().zip(heights_m) {
+        let soles = Self::soles(tick);
+        let stands = [0, 1].map(|foot: usize| self.sole_on_ground(soles[foot], heights_m[foot]));
+        self.stances.stand(stands, apart_m);
+        for (pose, height_m) in soles.into_iter().zip(heights_m) {
             self.felt
                 .retain(|other| other.pose.distance_m(&pose) > apart_m);
             self.felt.push(self.sole_on_ground(pose, height_m));

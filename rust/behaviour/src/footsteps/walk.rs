@@ -67,6 +67,7 @@ impl Footsteps {
         self.walking.resume(tick.situation);
         self.failed.forget();
         self.felt.clear();
+        self.stances.forget();
         self.last = LastSteps::default();
         self.looks = 0;
         self.enter(State::Walk);
