@@ -1,12 +1,12 @@
 //! Back to where the robot came from, where no step leads on.
 
-use terrain::ground_map::SoleOnGround;
-
-use super::{Footsteps, State};
-use crate::machine::Tick;
-use crate::{Footstep, Misstep};
 use planning::footsteps::StepManner;
 use robot::Side;
+use terrain::ground_map::SoleOnGround;
+
+use super::{Footsteps, LastSteps, State};
+use crate::machine::Tick;
+use crate::{Footstep, Misstep};
 
 /// Where both feet stood, left and right, one after the other, the last one here.
 #[derive(Debug, Clone, Default)]
@@ -65,8 +65,7 @@ impl Footsteps {
         let Some((side, to)) = self.stances.back(apart_m, self.config.backs) else {
             return false;
         };
-        let [left, right] = Self::soles(tick);
-        let here = [left, right][side.index()];
+        let here = Self::soles(tick)[side.index()];
         let half_m = to.half_m[0];
         let hold = |pose, height_m| Footstep {
             side,
@@ -89,7 +88,7 @@ impl Footsteps {
         self.machine.gets_on();
         self.looks = 0;
         self.planned_at = 0;
-        self.last = super::LastSteps::default();
+        self.last = LastSteps::default();
         self.enter(State::Step);
         true
     }
