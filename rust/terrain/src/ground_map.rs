@@ -156,10 +156,7 @@ impl GroundMap {
                     (Some(height_m), _) => self.map.set(at, height_m, sigma_m),
                     (
                         None,
-                        Plain::Level(about_m)
-                        | Plain::Border(about_m)
-                        | Plain::Missing(about_m)
-                        | Plain::Speck(about_m),
+                        Plain::Level(about_m) | Plain::Border(about_m) | Plain::Missing(about_m),
                     ) => {
                         self.map.set_blurred(at, about_m);
                     }
@@ -172,8 +169,8 @@ impl GroundMap {
     /// The height where no known edge is near, m. Where in a cell two levels meet is not known: there is none.
     fn plain_height_m(&self, plain: Plain, cell: Cell) -> Option<f32> {
         match plain {
-            Plain::Unseen | Plain::Between | Plain::Speck(_) | Plain::Border(_) => None,
-            Plain::Level(height_m) | Plain::Missing(height_m) => Some(height_m),
+            Plain::Unseen | Plain::Between | Plain::Missing(_) | Plain::Border(_) => None,
+            Plain::Level(height_m) => Some(height_m),
             Plain::Obstacle(top_m) => Some(self.out_of_reach_m(top_m, cell)),
         }
     }

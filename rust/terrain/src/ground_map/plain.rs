@@ -11,12 +11,10 @@ use super::config::GroundMapConfig;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Plain {
     Unseen,
-    /// Not seen, in the midst of what is on one level, m: no sole sinks into so little.
+    /// Not seen, in the midst of what is on one level, m.
     Missing(f32),
     /// Not seen, in the midst of ground on more than one level.
     Between,
-    /// Probably a false match of the camera's, in the midst of what is on one level, m.
-    Speck(f32),
     /// Ground on which no other level borders, m.
     Level(f32),
     /// Ground beside another level or none, m: where in the cell it ends is not known.
@@ -30,18 +28,13 @@ impl Plain {
     pub(super) const fn ground_m(self) -> Option<f32> {
         match self {
             Self::Level(height_m) | Self::Border(height_m) => Some(height_m),
-            Self::Unseen
-            | Self::Missing(_)
-            | Self::Between
-            | Self::Speck(_)
-            | Self::Obstacle(_) => None,
+            Self::Unseen | Self::Missing(_) | Self::Between | Self::Obstacle(_) => None,
         }
     }
 
     /// What it says of a cell in which something was seen that is no ground: that may be no false match.
     pub(super) const fn seen(self) -> Self {
         match self {
-            Self::Missing(height_m) => Self::Speck(height_m),
             Self::Between => Self::Unseen,
             other => other,
         }
