@@ -10,7 +10,7 @@ use sensing::Observation;
 
 use crate::dcm_walker::DcmWalker;
 use crate::gait::Gait;
-use crate::phase::{CarefulLanding, GaitPhase, Manner, Swing};
+use crate::phase::{CarefulLanding, GaitPhase, Manner};
 use crate::swing;
 use crate::targets::JointTargets;
 
@@ -52,14 +52,8 @@ impl Gait {
         if swing.manner != Manner::Careful || !gives_way || has_left {
             return;
         }
-        let here = swing.foot(*elapsed_s, &self.config);
-        let down = Swing::new(swing.side, Manner::Retreat, here, swing.from);
         self.listed.misstep = Some(Misstep::Buckled(carries));
-        self.phase = GaitPhase::Single {
-            elapsed_s: 0.0,
-            duration_s: down.single_support_s(&self.config),
-            swing: down,
-        };
+        self.turn_round(Manner::Retreat);
     }
 }
 
@@ -67,7 +61,7 @@ impl Gait {
 mod tests {
     use super::*;
     use crate::felt::KnownGround;
-    use crate::phase::FootPose;
+    use crate::phase::{FootPose, Swing};
     use crate::relief::Relief;
     use crate::task::Task;
     use crate::test_biped::{foot_at, on_its_way};

@@ -108,13 +108,18 @@ impl Gait {
 
     /// Gives the list up and turns the foot round.
     fn take_back(&mut self, misstep: Misstep) {
+        self.listed.misstep = Some(misstep);
+        self.turn_round(Manner::Back);
+    }
+
+    /// Sends a foot that is on its way back to where it left, in this manner.
+    pub(crate) fn turn_round(&mut self, manner: Manner) {
         if let GaitPhase::Single {
             elapsed_s, swing, ..
         } = self.phase
         {
             let here = swing.foot(elapsed_s, &self.config);
-            let back = Swing::new(swing.side, Manner::Back, here, swing.from);
-            self.listed.misstep = Some(misstep);
+            let back = Swing::new(swing.side, manner, here, swing.from);
             self.phase = GaitPhase::Single {
                 elapsed_s: 0.0,
                 duration_s: back.single_support_s(&self.config),

@@ -8,7 +8,7 @@ use geometry::PlanarPose;
 use nalgebra::Vector2;
 
 use crate::gait::Gait;
-use crate::phase::{CarefulLanding, GaitPhase, Manner, Swing};
+use crate::phase::{CarefulLanding, GaitPhase, Manner};
 use crate::swing;
 
 impl Gait {
@@ -43,13 +43,7 @@ impl Gait {
             && ahead_m.abs() < tuning.ahead_share * towards_m
         {
             self.listed.put_down += 1;
-            let here = swing.foot(*elapsed_s, &self.config);
-            let down = Swing::new(swing.side, Manner::Retreat, here, swing.from);
-            self.phase = GaitPhase::Single {
-                elapsed_s: 0.0,
-                duration_s: down.single_support_s(&self.config),
-                swing: down,
-            };
+            self.turn_round(Manner::Retreat);
         }
     }
 }
@@ -61,7 +55,7 @@ mod tests {
 
     use super::*;
     use crate::felt::KnownGround;
-    use crate::phase::FootPose;
+    use crate::phase::{FootPose, Swing};
     use crate::task::Task;
     use crate::test_biped::{foot_at, on_its_way};
 
