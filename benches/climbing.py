@@ -119,7 +119,7 @@ class Stand:
             min(half_sole, self.tread.back - self.x),
         )
         place = (cos * dx + sin * dy, cos * dy - sin * dx, -robot[2])
-        return (side, *place, self.tread.height - ground, *bears, "careful")
+        return (side, *place, self.tread.height - ground, *bears, "careful", (0.0, 0.0))
 
 
 def stands(treads: list[Tread], sizes: Sizes) -> list[Stand]:
@@ -174,7 +174,7 @@ def level_steps(rng: np.random.Generator, sizes: Sizes) -> list[Footstep]:
         turned = yaw + (0.0 if last else 2.0 * sign * max(0.0, sign * turn))
         feet[side] = (x + cos * ahead - sin * aside, y + sin * ahead + cos * aside, turned)
         manner = "careful" if rng.random() < CAREFUL else "walked"
-        steps.append((side, *feet[side], 0.0, -half_sole, half_sole, manner))
+        steps.append((side, *feet[side], 0.0, -half_sole, half_sole, manner, (0.0, 0.0)))
     return steps
 
 

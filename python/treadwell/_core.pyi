@@ -78,7 +78,7 @@ _Point = tuple[float, float, float]
 _Sole = tuple[float, float, float, tuple[float, float]]
 _Edge = tuple[_Point, _Point]
 _Fit = tuple[int, float, float]
-_Footstep = tuple[str, float, float, float, float, float, float, str]
+_Footstep = tuple[str, float, float, float, float, float, float, str, tuple[float, float]]
 
 def components() -> list[tuple[str, str, str, str | None, list[str]]]: ...
 def distances(blocked: NDArray[np.bool_], /) -> NDArray[np.float32]: ...

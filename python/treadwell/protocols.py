@@ -210,6 +210,7 @@ class Footstep(NamedTuple):
         bearing_from: m forward of the sole's centre: where the part that bears load begins.
         bearing_to: m forward of the sole's centre: where it ends; the rest overhangs an edge.
         manner: `careful` or `walked`.
+        slope: rise of that surface per metre, along the sole and to its left.
     """
 
     side: str
@@ -220,6 +221,7 @@ class Footstep(NamedTuple):
     bearing_from: float
     bearing_to: float
     manner: str = "careful"
+    slope: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -84,7 +84,7 @@ class _Stand:
         cos, sin = math.cos(robot[2]), math.sin(robot[2])
         bears = (max(-half, self.level.front - self.x), min(half, self.level.back - self.x))
         place = (cos * dx + sin * dy, cos * dy - sin * dx, -robot[2])
-        return (side, *place, self.level.height - ground, *bears, "careful")
+        return (side, *place, self.level.height - ground, *bears, "careful", (0.0, 0.0))
 
 
 def _stands(found: list[Level], size: Size) -> list[_Stand]:

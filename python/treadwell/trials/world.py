@@ -19,7 +19,7 @@ from treadwell.scenario.model import Scenario
 from treadwell.senses.sensors import Sensors
 
 Floats = NDArray[np.float64]
-Footstep = tuple[str, float, float, float, float, float, float, str]
+Footstep = tuple[str, float, float, float, float, float, float, str, tuple[float, float]]
 Motion = tuple[float, float, float] | list[Footstep] | None
 
 TICK_S: Final = 0.01

@@ -36,6 +36,8 @@ pub struct Footstep {
     pub pose: PlanarPose,
     /// Height of the surface there above the robot's ground then, m.
     pub height_m: f64,
+    /// Rise of that surface per metre, along the sole and to its left.
+    pub slope: [f64; 2],
     /// Part of the sole that will bear load, from and to, from its middle forward, m: a sole may overhang an edge.
     pub bearing_m: [f64; 2],
 }

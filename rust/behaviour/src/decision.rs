@@ -24,6 +24,8 @@ pub struct SoleAt {
     pub pose: PlanarPose,
     /// Its height above the robot's ground, m.
     pub height_m: f64,
+    /// Its rise per metre, along it and to its left.
+    pub slope: [f64; 2],
 }
 
 /// Everything a decision may rest on.

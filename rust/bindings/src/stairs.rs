@@ -24,8 +24,8 @@ fn flat_fit(fit: EdgeFit) -> FlatFit {
     (fit.frames, fit.place_sigma_m, fit.heading_sigma_rad)
 }
 
-/// (side, x m, y m, yaw rad, height m, bearing from m, bearing to m, manner): `treadwell.protocols.Footstep`.
-pub(crate) type FlatFootstep = (String, f64, f64, f64, f64, f64, f64, String);
+/// (side, x m, y m, yaw rad, height m, bearing from m, bearing to m, manner, slope): `treadwell.protocols.Footstep`.
+pub(crate) type FlatFootstep = (String, f64, f64, f64, f64, f64, f64, String, [f64; 2]);
 
 /// The steps that the feet are told to take; empty where they are told something else.
 pub(crate) fn flat_footsteps(motion: &Motion) -> Vec<FlatFootstep> {
@@ -42,17 +42,20 @@ fn flat_footstep(step: &Footstep) -> FlatFootstep {
     );
     let (PlanarPose { x_m, y_m, yaw_rad }, [from_m, to_m]) = (step.pose, step.bearing_m);
     let height_m = step.height_m;
-    (side, x_m, y_m, yaw_rad, height_m, from_m, to_m, manner)
+    (
+        side, x_m, y_m, yaw_rad, height_m, from_m, to_m, manner, step.slope,
+    )
 }
 
 /// A footstep that Python lists.
 pub(crate) fn footstep(flat: FlatFootstep) -> Result<Footstep, String> {
-    let (side, x_m, y_m, yaw_rad, height_m, from_m, to_m, manner) = flat;
+    let (side, x_m, y_m, yaw_rad, height_m, from_m, to_m, manner, slope) = flat;
     Ok(Footstep {
         side: self::side(&side)?,
         manner: self::manner(&manner)?,
         pose: PlanarPose { x_m, y_m, yaw_rad },
         height_m,
+        slope,
         bearing_m: [from_m, to_m],
     })
 }

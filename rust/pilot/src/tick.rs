@@ -106,10 +106,12 @@ fn soles(body: &Body, state: &BodyState) -> [SoleAt; 2] {
         let torso_from_sole = body.torso_from_sole(&state.links, side);
         let robot_from_sole = state.robot_from_torso.inner * torso_from_sole;
         let at = robot_from_sole.translation.vector;
-        let ahead = robot_from_sole.rotation * Vector3::x();
+        let [ahead, left] =
+            [Vector3::x(), Vector3::y()].map(|axis| robot_from_sole.rotation * axis);
         SoleAt {
             pose: PlanarPose::new(at.x, at.y, libm::atan2(ahead.y, ahead.x)),
             height_m: at.z,
+            slope: [ahead, left].map(|axis| axis.z / axis.xy().norm().max(f64::EPSILON)),
         }
     })
 }

@@ -25,6 +25,8 @@ pub struct SoleOnGround {
     pub half_m: [f64; 2],
     /// How high the robot believes that to be, m.
     pub height_m: f32,
+    /// How that rises, forward and to the left.
+    pub slope: [f32; 2],
 }
 
 /// Heights around the robot. Its arrays are used again.

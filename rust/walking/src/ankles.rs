@@ -8,7 +8,7 @@ use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robot::{Body, Side};
 
 use crate::config::GaitConfig;
-use crate::phase::{FootPose, GaitPhase};
+use crate::phase::{Bearing, CarefulLanding, FootPose, GaitPhase};
 use crate::support::{Pressure, sole_corners};
 
 /// How the soles are turned against the level.
@@ -49,15 +49,25 @@ impl Ankles {
     ) {
         for side in Side::BOTH {
             let index = side.index();
-            let sole = &mut self.soles[index];
-            let point = &pressure.point[index];
-            let (x, y) = feet[index].planar.inverse().apply(point.x, point.y);
-            let arms = self.corners[index].map(|corner| corner - Vector2::new(x, y));
+            let (sole, corners) = (&mut self.soles[index], &self.corners[index]);
+            let lands = landing_foot(phase, side);
+            let (x, y) = lands.map_or_else(
+                || {
+                    let point = &pressure.point[index];
+                    feet[index].planar.inverse().apply(point.x, point.y)
+                },
+                |foot| (middle_m(&foot.bearing, corners), 0.0),
+            );
+            let arms = corners.map(|corner| corner - Vector2::new(x, y));
             let smooth_s = self.config.tuning.ankles.smooth_time;
             sole.feel(&arms, &forces_n[index], passed_s / smooth_s);
             if sole.load_n > self.config.landing_load {
-                sole.forget(self.config.ankle_leak, passed_s);
-                if !on_careful_steps(phase) {
+                let careful = on_careful_steps(phase);
+                let uneven = is_uneven(phase, feet);
+                if !(careful && uneven) {
+                    sole.forget(self.config.ankle_leak, passed_s);
+                }
+                if !careful || uneven && (lands.is_some() || comes_to_carry(phase, side)) {
                     sole.give_way(&self.config, passed_s);
                 }
             } else if matches!(phase, GaitPhase::Single { swing, .. } if swing.side == side) {
@@ -73,7 +83,8 @@ impl Ankles {
     }
 }
 
-/// Whether a careful step comes or is under way: the list says what bears, and there the ankles only hold.
+/// Whether a careful step comes or is under way: the list says what bears, and there the ankles only hold, but on uneven ground those of a
+/// foot that comes to carry.
 fn on_careful_steps(phase: &GaitPhase) -> bool {
     let (GaitPhase::Double {
         next: Some(swing), ..
@@ -83,6 +94,37 @@ fn on_careful_steps(phase: &GaitPhase) -> bool {
         return false;
     };
     swing.manner.is_careful()
+}
+
+/// Where this foot lands, when it was found on the ground on a careful step: it is to lie flat before it carries.
+fn landing_foot(phase: &GaitPhase, side: Side) -> Option<&FootPose> {
+    match phase {
+        GaitPhase::Single { swing, .. } if swing.side == side => {
+            matches!(swing.landing, CarefulLanding::Found(_)).then_some(&swing.to)
+        }
+        GaitPhase::Single { .. } | GaitPhase::Standing | GaitPhase::Double { .. } => None,
+    }
+}
+
+/// Whether a foot stands, or is to land, on ground that is told to be tilted: the other one may, too.
+fn is_uneven(phase: &GaitPhase, feet: &[FootPose; 2]) -> bool {
+    let swing = match phase {
+        GaitPhase::Single { swing, .. } => Some(&swing.to),
+        GaitPhase::Standing | GaitPhase::Double { .. } => None,
+    };
+    (feet.iter().chain(swing)).any(|foot| foot.gradient != Vector2::zeros())
+}
+
+/// Whether the weight comes to this foot, for a careful step of the other one.
+fn comes_to_carry(phase: &GaitPhase, side: Side) -> bool {
+    matches!(phase, GaitPhase::Double { next: Some(swing), .. } if swing.side != side)
+}
+
+/// The middle of what bears of a sole with sensors at these corners, m forward of its own.
+fn middle_m(bearing: &Bearing, corners: &[Vector2<f64>; 4]) -> f64 {
+    let half_m = corners.iter().map(|corner| corner.x).fold(0.0, f64::max);
+    let [rear_m, front_m] = bearing.on_sole_m(half_m, 0.0);
+    0.5 * (rear_m + front_m)
 }
 
 impl TiltedSole {
@@ -173,6 +215,54 @@ mod tests {
     fn a_sole_that_only_its_front_half_carries_lowers_its_heel_by_5_mm_in_a_quarter_of_a_second() {
         let ankles = standing_on(&at(0.026, 0.0), 25);
         assert!(height_m(&ankles, -0.0525, 0.0) < -0.005);
+    }
+
+    /// The left sole after half a second of a careful step on which it comes down, or the other one does, loaded at this place of it; on
+    /// ground that is told to rise so.
+    fn after_a_landing(slope: f64, lands: Side, bearing: Bearing, [x_m, y_m]: [f64; 2]) -> Ankles {
+        let mut ankles = Ankles::new(&config(), &biped());
+        let place = FootPose {
+            bearing,
+            gradient: Vector2::new(slope, 0.0),
+            ..FootPose::default()
+        };
+        let mut swing = Swing::new(lands, Manner::Careful, place, place);
+        swing.landing = CarefulLanding::Found(0.0);
+        let phase = GaitPhase::Single {
+            elapsed_s: 0.9,
+            duration_s: 1.0,
+            swing,
+        };
+        let pressure = Pressure {
+            share: [0.0, 1.0],
+            point: [Vector2::zeros(); 2],
+            zmp: Vector2::zeros(),
+        };
+        for _ in 0..50 {
+            ankles.update(&phase, &[place; 2], &pressure, &at(x_m, y_m), 0.01);
+        }
+        ankles
+    }
+
+    #[test]
+    fn a_foot_that_lands_with_care_lies_down_on_what_it_meets_and_the_other_one_holds() {
+        let corner_m = [0.05, 0.03];
+        let whole = after_a_landing(0.05, Side::Left, Bearing::default(), corner_m);
+        assert!(height_m(&whole, 0.05, 0.0) > 0.005 && height_m(&whole, 0.0, 0.03) > 0.003);
+        // Of a sole whose heel hangs over an edge the front is to carry, and its rear end is turned up where the edge alone does.
+        let hangs = Bearing {
+            from_m: -0.02,
+            ..Bearing::default()
+        };
+        let edge = after_a_landing(0.05, Side::Left, hangs, [-0.02, 0.0]);
+        assert!(height_m(&edge, -0.05, 0.0) > 0.005);
+        let front = after_a_landing(0.05, Side::Left, hangs, [0.016, 0.0]);
+        assert_eq!(front.level_from_sole(Side::Left).angle(), 0.0);
+        let holds = after_a_landing(0.05, Side::Right, Bearing::default(), corner_m);
+        assert_eq!(holds.level_from_sole(Side::Left).angle(), 0.0);
+        // On treads, which are told to be level, the list says what bears.
+        let level = after_a_landing(0.0, Side::Left, Bearing::default(), corner_m);
+        assert_eq!(level.level_from_sole(Side::Left).angle(), 0.0);
     }
 
     #[test]

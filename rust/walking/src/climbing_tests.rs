@@ -18,6 +18,7 @@ pub(super) fn step(side: Side, x_m: f64, height_m: f64, bearing_m: [f64; 2]) -> 
         manner: StepManner::Careful,
         pose: PlanarPose::new(x_m, side.sign() * 0.5 * config().stance_width, 0.0),
         height_m,
+        slope: [0.0; 2],
         bearing_m,
     }
 }

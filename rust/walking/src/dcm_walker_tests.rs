@@ -46,6 +46,7 @@ fn any_command() -> impl Strategy<Value = Command> {
             },
             pose: PlanarPose::new(x_m, y_m, yaw_rad),
             height_m: 0.0,
+            slope: [0.0; 2],
             bearing_m: [-0.0525, 0.0525],
         },
     );
@@ -194,6 +195,7 @@ fn listed_footsteps_are_taken_and_then_it_stands() {
             manner: StepManner::Careful,
             pose: PlanarPose::new(0.05, 0.045, 0.0),
             height_m: 0.0,
+            slope: [0.0; 2],
             bearing_m: [-0.0525, 0.0525],
         },
         Footstep {
@@ -201,6 +203,7 @@ fn listed_footsteps_are_taken_and_then_it_stands() {
             manner: StepManner::Careful,
             pose: PlanarPose::new(0.05, -0.045, 0.0),
             height_m: 0.0,
+            slope: [0.0; 2],
             bearing_m: [-0.0525, 0.0525],
         },
     ];

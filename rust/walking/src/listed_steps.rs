@@ -2,6 +2,7 @@
 
 use behaviour::{Footstep, StepManner, Stepping};
 use geometry::PlanarPose;
+use nalgebra::Vector2;
 use robot::Side;
 
 use crate::gait::Gait;
@@ -49,11 +50,14 @@ impl Gait {
         let side: Side = step.side;
         let (stance, from) = (&feet[side.other().index()], feet[side.index()]);
         let [from_m, to_m] = step.bearing_m;
+        let planar = self.listed.origin.compose(&step.pose);
+        let (sin, cos) = libm::sincos(planar.yaw_rad);
+        let [ahead, left] = step.slope;
         let told = FootPose {
-            planar: self.listed.origin.compose(&step.pose),
+            planar,
             z_m: self.listed.ground_m + step.height_m,
             bearing: Bearing { from_m, to_m },
-            ..FootPose::default()
+            gradient: Vector2::new(cos * ahead - sin * left, sin * ahead + cos * left),
         };
         if step.manner == StepManner::Walked
             && let Some(to) = self.walked_to(stance, &from, told, side)

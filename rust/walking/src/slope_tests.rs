@@ -1,6 +1,6 @@
 //! What the walker promises on slopes that it is told of, in a world where joints follow their targets at once.
 
-use behaviour::{Motion, Velocity};
+use behaviour::{Footstep, Motion, Velocity};
 
 use super::*;
 use crate::phase::FootPose;
@@ -93,4 +93,19 @@ fn told_of_nothing_its_soles_stay_level() {
     let (world, feet) = walked(false);
     assert!(feet.iter().all(|foot| foot.z_m == 0.0));
     assert_eq!(world.walker.on_slope(), [false; 2]);
+}
+
+#[test]
+fn a_listed_step_onto_a_tilted_slab_sets_the_sole_on_it() {
+    let mut world = Ideal::new();
+    let onto = Footstep {
+        slope: [0.1, -0.05],
+        ..climbing_tests::step(Side::Left, 0.1, 0.0, [-0.0525, 0.0525])
+    };
+    climbing_tests::run(&mut world, &climbing_tests::climb(&[onto]));
+    let lies = world.walker.foot_in_plan(Side::Left);
+    assert!((lies.gradient - Vector2::new(0.1, -0.05)).norm() < 1e-9);
+    let left = lies.plan_from_sole() * nalgebra::Point3::new(0.0, 0.03, 0.0);
+    assert!((left.z - lies.z_m + 0.03 * 0.05).abs() < 1e-4);
+    assert_eq!(world.walker.on_slope(), [true, false]);
 }

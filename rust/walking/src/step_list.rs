@@ -105,7 +105,7 @@ pub struct ListFrame {
 }
 
 fn is_finite(step: &Footstep) -> bool {
-    let [from_m, to_m] = step.bearing_m;
+    let ([from_m, to_m], [ahead, left]) = (step.bearing_m, step.slope);
     let pose = &step.pose;
     let numbers = [
         pose.x_m,
@@ -114,6 +114,8 @@ fn is_finite(step: &Footstep) -> bool {
         step.height_m,
         from_m,
         to_m,
+        ahead,
+        left,
     ];
     numbers.iter().all(|number| number.is_finite())
 }

@@ -68,6 +68,7 @@ mod tests {
             yaw_rad: 0.0,
         },
         height_m: 0.04,
+        slope: [0.0; 2],
         bearing_m: [-0.05, 0.05],
     }];
 

@@ -27,6 +27,7 @@ impl Stance {
             manner: StepManner::Careful,
             pose: self.pose.compose(&place),
             height_m: self.height_m,
+            slope: [0.0; 2],
             bearing_m: self.bearing_m,
         }
     }

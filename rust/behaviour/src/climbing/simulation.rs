@@ -208,6 +208,7 @@ impl Simulation {
         self.feet.map(|foot| crate::SoleAt {
             pose: here.relative(&foot.pose),
             height_m: foot.height_m - ground_m,
+            slope: [0.0; 2],
         })
     }
 

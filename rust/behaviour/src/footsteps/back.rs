@@ -65,25 +65,25 @@ impl Footsteps {
         let Some((side, to)) = self.stances.back(apart_m, self.config.backs) else {
             return false;
         };
-        let here = Self::soles(tick)[side.index()];
-        let half_m = to.half_m[0];
-        let hold = |pose, height_m| Footstep {
+        let stands = self.standing(tick);
+        let here = stands[side.index()];
+        let hold = |sole: &SoleOnGround| Footstep {
             side,
             manner: StepManner::Careful,
-            pose,
-            height_m,
-            bearing_m: [-half_m, half_m],
+            pose: sole.pose,
+            height_m: f64::from(sole.height_m),
+            slope: sole.slope.map(f64::from),
+            bearing_m: [-sole.half_m[0], sole.half_m[0]],
         };
-        let heights_m = Self::sole_heights_m(tick);
-        let led_to = hold(here, heights_m[side.index()]);
         // Once may be a matter of balance.
         for _ in 0..2 {
-            self.failed.note(led_to, Misstep::NoGround);
+            self.failed.note(hold(&here), Misstep::NoGround);
         }
         self.felt
-            .retain(|sole| sole.pose.distance_m(&here) > apart_m);
-        let back = hold(to.pose, f64::from(to.height_m));
-        let ground_m = heights_m[side.other().index()].min(f64::from(to.height_m));
+            .retain(|sole| sole.pose.distance_m(&here.pose) > apart_m);
+        let back = hold(&to);
+        let other_m = f64::from(stands[side.other().index()].height_m);
+        let ground_m = other_m.min(back.height_m);
         self.stepper.start(vec![back], &tick.pose, ground_m);
         self.machine.gets_on();
         self.looks = 0;
@@ -105,6 +105,7 @@ mod tests {
             pose: PlanarPose::new(x_m, y_m, 0.0),
             half_m: [0.05, 0.04],
             height_m: 0.0,
+            slope: [0.0; 2],
         }
     }
 

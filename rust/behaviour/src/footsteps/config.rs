@@ -19,6 +19,8 @@ settings! {
         faces: f64 = 0.8, "rad", within(0.1, 3.2);
         /// Feet whose places and heights differ by no more from side by side and level walk on from there.
         side_by_side: f64 = 0.015, "m", POSITIVE;
+        /// A sole is put down level where the ground under it rises less than this per metre: heights are known to so much.
+        level_slope: f64 = 0.02, "1", within(0.0, 1.0);
         /// While it steps, the robot looks at the place of the step that comes so many steps later.
         look_ahead: usize = 3, "1", within(0.0, 20.0);
         /// The last places where feet stood, so many, count as ground while the robot steps.

@@ -132,6 +132,7 @@ mod tests {
             side: Side::Left,
             pose: PlanarPose::new(0.5, 0.5, 0.3),
             height_m: 0.03,
+            slope: [0.0; 2],
             bearing_m: [-0.05, 0.05],
             manner: planning::footsteps::StepManner::Careful,
         };

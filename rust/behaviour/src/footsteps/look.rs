@@ -4,7 +4,7 @@ use geometry::PlanarPose;
 use planning::footsteps::{FootstepPlan, NoFootsteps, PlannedFootstep};
 
 use super::progress::{CostToGo, Since};
-use super::route::{LastSteps, told};
+use super::route::LastSteps;
 use super::{Footsteps, State};
 use crate::Motion;
 use crate::machine::Tick;
@@ -54,11 +54,11 @@ impl Footsteps {
     fn plan_steps(&mut self, tick: &Tick<'_>) {
         let feet = Self::soles(tick);
         self.feel(tick);
-        self.read_ground(tick, &feet, Self::sole_heights_m(tick));
+        self.read_ground(tick, &self.standing(tick));
         let planned = self.planned_on(tick);
         let mut found = self.plan_next(tick, feet, None, &planned);
         if self.was_looked_at_in_vain(tick, &found) {
-            self.read_ground(tick, &feet, Self::sole_heights_m(tick));
+            self.read_ground(tick, &self.standing(tick));
             found = self.plan_from(tick, feet, None, &planned);
         }
         match found {
@@ -116,7 +116,11 @@ impl Footsteps {
                 .unwrap_or(Self::sole_heights_m(tick)[foot])
         });
         let ground_m = heights_m[0].min(heights_m[1]);
-        let holds = plan.steps.iter().take(self.config.run).map(told);
+        let holds = plan
+            .steps
+            .iter()
+            .take(self.config.run)
+            .map(|step| self.told(step));
         self.stepper.start(holds.collect(), &tick.pose, ground_m);
         self.planned_at = 0;
         self.last = LastSteps {

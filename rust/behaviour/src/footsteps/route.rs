@@ -49,13 +49,19 @@ impl Footsteps {
             .map(|sole| tick.ground_m + sole.height_m)
     }
 
-    /// Reads the ground around feet that stand here, so high, m.
-    pub(super) fn read_ground(
-        &mut self,
-        tick: &Tick<'_>,
-        feet: &[PlanarPose; 2],
-        heights_m: [f64; 2],
-    ) {
+    /// How the soles stand, left and right.
+    pub(super) fn standing(&self, tick: &Tick<'_>) -> [SoleOnGround; 2] {
+        let SoleSize { length_m, width_m } = self.layer.limits().sole;
+        tick.situation.soles.map(|sole| SoleOnGround {
+            pose: tick.pose.compose(&sole.pose),
+            half_m: [0.5 * length_m, 0.5 * width_m],
+            height_m: (tick.ground_m + sole.height_m) as f32,
+            slope: sole.slope.map(|rise| rise as f32),
+        })
+    }
+
+    /// Reads the ground around soles that stand so.
+    pub(super) fn read_ground(&mut self, tick: &Tick<'_>, soles: &[SoleOnGround; 2]) {
         let limits = *self.layer.limits();
         let half_m = [0.5 * limits.sole.length_m, 0.5 * limits.sole.width_m];
         let (view, stairs) = (tick.situation.view, tick.situation.stairs);
@@ -63,35 +69,20 @@ impl Footsteps {
         let _ = self.ground.read(view, stairs, around_m);
         self.failed
             .take_from(self.ground.map_mut(), half_m, limits.careful_rise_m);
-        for sole in &self.felt {
+        for sole in self.felt.iter().chain(soles) {
             self.ground.stand_on(sole);
-        }
-        for (pose, height_m) in feet.iter().zip(heights_m) {
-            self.ground.stand_on(&self.sole_on_ground(*pose, height_m));
-        }
-    }
-
-    /// A sole that stands here, so high, m.
-    fn sole_on_ground(&self, pose: PlanarPose, height_m: f64) -> SoleOnGround {
-        let SoleSize { length_m, width_m } = self.layer.limits().sole;
-        SoleOnGround {
-            pose,
-            half_m: [0.5 * length_m, 0.5 * width_m],
-            height_m: height_m as f32,
         }
     }
 
     /// Where feet stood there is ground, whatever the map makes of it later: they can go back.
     pub(super) fn feel(&mut self, tick: &Tick<'_>) {
         let apart_m = 0.5 * self.layer.limits().sole.width_m;
-        let heights_m = Self::sole_heights_m(tick);
-        let soles = Self::soles(tick);
-        let stands = [0, 1].map(|foot: usize| self.sole_on_ground(soles[foot], heights_m[foot]));
-        self.stances.stand(stands, apart_m);
-        for (pose, height_m) in soles.into_iter().zip(heights_m) {
+        let soles = self.standing(tick);
+        self.stances.stand(soles, apart_m);
+        for sole in soles {
             self.felt
-                .retain(|other| other.pose.distance_m(&pose) > apart_m);
-            self.felt.push(self.sole_on_ground(pose, height_m));
+                .retain(|other| other.pose.distance_m(&sole.pose) > apart_m);
+            self.felt.push(sole);
         }
         let too_many = self.felt.len().saturating_sub(self.config.felt);
         let _ = self.felt.drain(..too_many);
@@ -135,16 +126,20 @@ impl Footsteps {
         let cell = map.lattice.cell_at(foot.x_m, foot.y_m);
         map.height_m(cell).map(f64::from)
     }
-}
 
-/// A planned step as the walker is told it, in the map.
-pub(super) fn told(step: &PlannedFootstep) -> Footstep {
-    Footstep {
-        side: step.side,
-        pose: step.pose,
-        height_m: f64::from(step.foothold.height_m),
-        bearing_m: step.foothold.bearing_m.map(f64::from),
-        manner: step.manner,
+    /// A planned step as the walker is told it, in the map.
+    pub(super) fn told(&self, step: &PlannedFootstep) -> Footstep {
+        let slope = step.foothold.slope.map(f64::from);
+        let [ahead, left] = slope;
+        let is_level = geometry::hypot(ahead, left) < self.config.level_slope;
+        Footstep {
+            side: step.side,
+            pose: step.pose,
+            height_m: f64::from(step.foothold.height_m),
+            slope: if is_level { [0.0; 2] } else { slope },
+            bearing_m: step.foothold.bearing_m.map(f64::from),
+            manner: step.manner,
+        }
     }
 }
 

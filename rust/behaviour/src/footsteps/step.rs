@@ -3,10 +3,11 @@
 use geometry::PlanarPose;
 use planning::footsteps::{FootstepPlan, StepManner};
 use robot::Side;
+use terrain::ground_map::SoleOnGround;
 
 use super::Footsteps;
 use super::progress::Since;
-use super::route::{LastSteps, after, told};
+use super::route::{LastSteps, after};
 use crate::climbing::stepper::{self, Stepped};
 use crate::machine::Tick;
 use crate::{Footstep, Misstep, Motion};
@@ -40,9 +41,15 @@ impl Footsteps {
             return;
         };
         let (feet, told_from_map) = self.feet_after(tick, landed, &under_way);
-        let mut heights_m = Self::sole_heights_m(tick);
-        heights_m[under_way.side.index()] = under_way.height_m;
-        self.read_ground(tick, &feet, heights_m);
+        let mut soles = self.standing(tick);
+        let foot = under_way.side.index();
+        soles[foot] = SoleOnGround {
+            pose: feet[foot],
+            height_m: under_way.height_m as f32,
+            slope: under_way.slope.map(|rise| rise as f32),
+            ..soles[foot]
+        };
+        self.read_ground(tick, &soles);
         let mut holds: Vec<Footstep> = self.stepper.holds[..=landed].to_vec();
         let planned = self.last.from(landed + 1, &told_from_map);
         match self.plan_next(tick, feet, Some(under_way.side.other()), &planned) {
@@ -52,7 +59,11 @@ impl Footsteps {
             }
             Ok(plan) => {
                 let _ = self.gets_on(Since::Step, &plan);
-                let next = plan.steps.iter().take(self.config.run).map(told);
+                let next = plan
+                    .steps
+                    .iter()
+                    .take(self.config.run)
+                    .map(|step| self.told(step));
                 holds.extend(next.map(|hold| Footstep {
                     pose: told_from_map.compose(&hold.pose),
                     ..hold
@@ -106,6 +117,7 @@ impl Footsteps {
             side,
             pose,
             height_m,
+            slope: [0.0; 2],
             bearing_m: landing.bearing_m,
             manner: StepManner::Walked,
         })

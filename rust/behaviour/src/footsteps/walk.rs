@@ -138,7 +138,7 @@ impl Footsteps {
             return self.lead.take();
         }
         let feet = Self::soles(tick);
-        self.read_ground(tick, &feet, Self::sole_heights_m(tick));
+        self.read_ground(tick, &self.standing(tick));
         let found = self.plan_from(tick, feet, None, &[]).ok();
         let by_steps = found.filter(|plan| plan.exit_m.is_none() || way.is_none());
         by_steps

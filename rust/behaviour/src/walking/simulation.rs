@@ -35,6 +35,7 @@ const fn sole_at(y_m: f64) -> crate::SoleAt {
             yaw_rad: 0.0,
         },
         height_m: 0.0,
+        slope: [0.0; 2],
     }
 }
 

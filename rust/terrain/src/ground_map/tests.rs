@@ -28,6 +28,7 @@ fn soles() -> [SoleOnGround; 2] {
         pose: PlanarPose::new(0.0, y_m, 0.0),
         half_m: [0.0525, 0.0375],
         height_m: 0.0,
+        slope: [0.0; 2],
     })
 }
 
@@ -182,6 +183,37 @@ fn a_cell_of_floor_on_another_level_than_all_around_is_a_false_match() {
     assert_eq!(height_m(&map, 0.5, 0.3), None);
     for [x_m, y_m] in [[0.45, 0.3], [0.56, 0.3], [0.5, 0.25], [0.5, 0.36]] {
         assert_eq!(height_m(&map, x_m, y_m), Some(0.0), "{x_m} {y_m}");
+    }
+}
+
+#[test]
+fn the_ground_under_a_sole_that_lies_tilted_is_tilted() {
+    let rise = 0.1;
+    let mut ground = GroundMap::new(GroundMapConfig::default(), RISE_M);
+    for surface in [Surface::Unknown, Surface::Floor(0.0)] {
+        let view = view(|x_m, _| match surface {
+            Surface::Floor(_) => Surface::Floor((rise * x_m) as f32 + 0.003),
+            other => other,
+        });
+        let _ = ground.read(&view, &Staircase::default(), [0.0; 2]);
+        let [sole, _] = soles();
+        ground.stand_on(&SoleOnGround {
+            slope: [rise as f32, 0.0],
+            ..sole
+        });
+        // Where the map has it, that is right, and where it has nothing, what is felt.
+        let middle_m = if surface == Surface::Unknown {
+            0.0
+        } else {
+            0.003
+        };
+        for x_m in [-0.045, -0.005, 0.045] {
+            let got_m = f64::from(height_m(ground.map(), x_m, 0.0425).unwrap());
+            assert!(
+                (got_m - middle_m - rise * x_m).abs() < 1e-3,
+                "{x_m}: {got_m}"
+            );
+        }
     }
 }
 
