@@ -15,6 +15,7 @@ mod listed;
 mod passes;
 mod plan;
 mod question;
+mod single_step;
 mod space;
 mod spots;
 mod step_table;

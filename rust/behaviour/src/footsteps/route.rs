@@ -167,6 +167,7 @@ mod tests {
                 slope: [0.0; 2],
                 bearing_m: [-0.05, 0.05],
                 bearing_share: 1.0,
+                unevenness: 0.0,
                 closed_share: 0.0,
             },
             manner: StepManner::Careful,

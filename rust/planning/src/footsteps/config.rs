@@ -19,6 +19,8 @@ settings! {
         sole_cells: usize = 200, "1", within(2.0, 1000.0);
         /// What it costs at most that a sole bears only in part.
         partial_cost: f64 = 1.0, "s", within(0.0, 100.0);
+        /// What it costs at most that what bears is not even.
+        uneven_cost: f64 = 6.0, "s", within(0.0, 100.0);
         /// What it costs at most that ground beside a foot is not known or out of reach: at the side of a flight and at its corners it has little room,
         /// and the next step less.
         margin_cost: f64 = 1.5, "s", within(0.0, 100.0);
@@ -26,6 +28,8 @@ settings! {
         turn_cost: f64 = 0.1, "s/rad", within(0.0, 100.0);
         /// Ground whose height differs by no more from that of the standing foot is walked on; other heights take careful steps.
         walk_height: f64 = 0.006, "m", within(0.0, 1.0);
+        /// Of a walked step the ground under both feet rises by no more per metre: on steeper ground the weight is shifted with care.
+        walk_slope: f64 = 0.03, "1", within(0.0, 1.0);
         /// Of a walked step both soles bear at least in this part: where less does, the weight is shifted with care.
         walk_bearing: f64 = 0.95, "1", SHARE;
         /// A careful step goes no higher and no lower than what the legs do, less this: heights are known to so much.

@@ -66,6 +66,7 @@ pub(super) fn stand(
             slope: [0.0; 2],
             bearing_m: [0.0; 2],
             bearing_share: 0.0,
+            unevenness: 0.0,
             closed_share: 1.0,
         };
         let foothold = read.or_else(|| map.height_m(cell).map(on_height));

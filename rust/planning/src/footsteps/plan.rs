@@ -44,7 +44,7 @@ pub struct PlannedFootstep {
 pub struct StepCost {
     /// The time that it takes.
     pub time_s: f64,
-    /// That the sole bears only in part.
+    /// That the sole bears only in part, or on what is not even.
     pub partial_s: f64,
     /// That not all of the ground beside the foot is known and within reach.
     pub margin_s: f64,

@@ -7,8 +7,8 @@ use terrain::footholds::{Footholds, HighBlocks};
 
 use super::config::FootstepsConfig;
 use super::goal_field::GoalField;
-use super::limits::{StepLimits, StepReach};
-use super::plan::{PlannedFootstep, StepCost, StepManner};
+use super::limits::StepLimits;
+use super::plan::PlannedFootstep;
 use super::spots::{FootSpot, Spots, StandingFoot};
 use super::step_table::{LatticeStep, StepTable};
 use super::unseen::Unseen;
@@ -81,75 +81,6 @@ impl FootstepSpace<'_> {
         });
         let stands = spots.all[index as usize].foothold.is_some();
         stands.then_some(START + 1 + 2 * index + side.index() as u32)
-    }
-
-    /// The step of the foot that moves from where it is to a place; `None` where it is not possible.
-    pub(super) fn step(
-        &self,
-        (standing, moving): (&StandingFoot, &StandingFoot),
-        there: &StandingFoot,
-        reach: StepReach,
-    ) -> Option<PlannedFootstep> {
-        let height_m = |foot: &StandingFoot| f64::from(foot.foothold.height_m);
-        let [rise_m, lift_m] = [standing, moving].map(|foot| height_m(there) - height_m(foot));
-        let Self { limits, config, .. } = self;
-        if rise_m.abs() > limits.careful_rise_m - config.height_margin
-            || lift_m.abs() > limits.careful_lift_m
-        {
-            return None;
-        }
-        let way_m = moving.pose.distance_m(&there.pose);
-        let whole =
-            |foot: &StandingFoot| f64::from(foot.foothold.bearing_share) >= config.walk_bearing;
-        let level = rise_m.abs().max(lift_m.abs()) <= config.walk_height
-            && limits.walks_so_far(way_m)
-            && whole(standing)
-            && whole(there);
-        let (manner, clearance_m) = match (level, reach) {
-            (true, StepReach::Walking | StepReach::WalkingOnly) => {
-                (StepManner::Walked, limits.clearance_m[0])
-            }
-            (false, StepReach::WalkingOnly) => return None,
-            (false, _) | (true, StepReach::Careful) => (StepManner::Careful, limits.clearance_m[1]),
-        };
-        let ahead = || standing.pose.relative(&there.pose);
-        if manner == StepManner::Careful && !limits.reaches_down(&ahead(), there.side, -rise_m) {
-            return None;
-        }
-        let lifted_m = height_m(there).max(height_m(moving)) + clearance_m - config.way_margin;
-        let seen = (self.map, self.blocks);
-        let (from, to) = ((&moving.pose, moving.heading), (&there.pose, there.heading));
-        if !self.footholds.is_way_free(seen, from, to, lifted_m as f32) {
-            return None;
-        }
-        let middle_m = [
-            0.5 * (standing.pose.x_m + there.pose.x_m),
-            0.5 * (standing.pose.y_m + there.pose.y_m),
-        ];
-        let body_m = height_m(there).min(height_m(standing)) + limits.body_from_m;
-        let (map, blocks) = seen;
-        if blocks.is_higher_within(map, middle_m, limits.body_radius_m, body_m as f32) {
-            return None;
-        }
-        let time_s = match manner {
-            StepManner::Walked => limits.walked_s,
-            StepManner::Careful => limits.careful_s(way_m, lift_m),
-        };
-        let turn_rad = geometry::angle_between(standing.pose.yaw_rad, there.pose.yaw_rad).abs();
-        let missing = 1.0 - f64::from(there.foothold.bearing_share);
-        let most = (1.0 - config.foothold.least_bearing).max(f64::EPSILON);
-        Some(PlannedFootstep {
-            side: there.side,
-            pose: there.pose,
-            foothold: there.foothold,
-            manner,
-            cost: StepCost {
-                time_s,
-                partial_s: config.partial_cost * missing / most,
-                margin_s: config.margin_cost * f64::from(there.foothold.closed_share),
-                turn_s: config.turn_cost * turn_rad,
-            },
-        })
     }
 
     /// The node at which a step of the lattice ends, and that step.

@@ -3,7 +3,7 @@
 use geometry::{Cell, PlanarPose};
 use robot::Side;
 use rustc_hash::FxHashMap;
-use terrain::footholds::Foothold;
+use terrain::footholds::{Foothold, SoleSize};
 
 /// A foot at a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,6 +14,14 @@ pub(super) struct StandingFoot {
     pub(super) cell: Cell,
     pub(super) heading: usize,
     pub(super) foothold: Foothold,
+}
+
+impl StandingFoot {
+    /// How much lower than its middle the lowest corner of a sole is that is as tilted as the ground under this one, m.
+    pub(super) fn hangs_m(&self, sole: SoleSize) -> f64 {
+        let [ahead, left] = self.foothold.slope.map(|rise| f64::from(rise).abs());
+        0.5 * (ahead * sole.length_m + left * sole.width_m)
+    }
 }
 
 /// A place on the lattice: cell of the map, and heading.

@@ -19,6 +19,8 @@ pub struct Foothold {
     pub bearing_m: [f32; 2],
     /// Share of its cells that bears.
     pub bearing_share: f32,
+    /// How far what bears, or may bear, lies from the plane against how far it may: the mean of the squares, 0 to 1. A sole on it rocks.
+    pub unevenness: f32,
     /// Share of the ground close beside it that is closed to the next step: not known, or higher or lower than a leg climbs.
     pub closed_share: f32,
 }
@@ -101,17 +103,7 @@ impl Footholds {
         }
         strips.clear();
         strips.resize(raster.strips.len(), 0);
-        let mut bearing = 0.0;
-        for place in ground.iter() {
-            let above_m = plane.above_m(place);
-            if above_m > place.within_m {
-                return Err(NoFoothold::Higher);
-            }
-            if above_m >= -place.within_m {
-                bearing += 1.0;
-                strips[place.strip] += 1;
-            }
-        }
+        let [bearing, unevenness] = bearing_on(&plane, ground, strips)?;
         let bears =
             |strip: usize| f32::from(strips[strip]) >= least * f32::from(raster.strips[strip]);
         let edge_m = |strip: usize| strip as f64 * raster.strip_m - raster.half_length_m;
@@ -137,6 +129,7 @@ impl Footholds {
             slope: plane.slope,
             bearing_m: bearing_m.map(|place_m| place_m as f32),
             bearing_share,
+            unevenness,
             closed_share: raster.closed_share(map, middle, [plane.height_m, self.rise_m]),
         })
     }
@@ -235,6 +228,30 @@ impl<'a> CellsAround<'a> {
             within_m: (config.level as f32).max(config.sigmas as f32 * sigma_m),
         }
     }
+}
+
+/// How many places bear of those under a sole that rests on a plane, counted by strip, too, and how uneven that is; none may be higher.
+fn bearing_on(
+    plane: &RestingPlane,
+    ground: &[PlaceUnder],
+    strips: &mut [u16],
+) -> Result<[f32; 2], NoFoothold> {
+    let (mut bearing, mut squares) = (0.0, 0.0);
+    for place in ground {
+        let off = plane.above_m(place) / place.within_m;
+        if off > 1.0 {
+            return Err(NoFoothold::Higher);
+        }
+        // What is so little lower may bear, too.
+        if off >= -2.0 {
+            squares += (off * off).min(1.0);
+        }
+        if off >= -1.0 {
+            bearing += 1.0;
+            strips[place.strip] += 1;
+        }
+    }
+    Ok([bearing, squares / ground.len() as f32])
 }
 
 /// From which strip to before which all bear, around the middle one.

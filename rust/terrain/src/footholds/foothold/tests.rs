@@ -91,6 +91,19 @@ fn a_slab_that_ends_under_the_sole_is_stood_on_as_tilted_as_it_is() {
 }
 
 #[test]
+fn a_sole_on_two_slabs_is_known_to_rock() {
+    // They meet in a ridge under its middle; and one is a little lower than the other where the toes are.
+    let ridge = map(|x_m, _| -0.12 * x_m.abs());
+    let lower = map(|x_m, _| if x_m > 0.03 { -0.009 } else { 0.0 });
+    let deep = map(|x_m, _| if x_m > 0.03 { -0.04 } else { 0.0 });
+    let even = map(|x_m, y_m| 0.1 * x_m + 0.05 * y_m);
+    let [ridge, lower, deep, even] =
+        [ridge, lower, deep, even].map(|map| stand(&map, 0.0, 0.0, 0.0).unwrap().unevenness);
+    assert!(even < 1e-3 && deep < 1e-3, "{even} {deep}");
+    assert!(ridge > 0.05 && lower > 0.1, "{ridge} {lower}");
+}
+
+#[test]
 fn what_was_not_seen_bears_nothing() {
     let seen = |from_m: f64| map(move |x_m, _| if x_m > from_m { f64::NAN } else { 0.0 });
     assert!(stand(&seen(0.035), 0.0, 0.0, 0.0).is_ok());
