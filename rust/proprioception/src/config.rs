@@ -44,8 +44,6 @@ settings! {
         load_filter: f64 = 0.5, "1", above_to(0.0, 1.0);
         /// A foot that lands nearer than this to the height of the other one, or of where it stood before, stands on that level.
         level_band: f64 = 0.008, "m", NOT_NEGATIVE;
-        /// A sole that carries the robot and lies more tilted than this lies on ground that is not level.
-        sole_tilt: f64 = 0.03, "rad", POSITIVE;
         /// Numbers that few will want to turn.
         tuning: ProprioceptionTuning;
     }

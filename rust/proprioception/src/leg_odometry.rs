@@ -32,13 +32,6 @@ impl LegPosture {
         (self.odometry_from_torso_rotation * (sole * Vector3::x())).z
     }
 
-    /// How far a sole is turned against the level, rad.
-    fn tilt_rad(&self, side: Side) -> f64 {
-        let sole = self.torso_from_sole[side.index()].rotation;
-        let up = self.odometry_from_torso_rotation * (sole * Vector3::z());
-        libm::acos(up.z.clamp(-1.0, 1.0))
-    }
-
     /// How high the middle of a sole is over its front edge, m, where its heel is lifted: its toes point down by more than `limit_rad`
     /// against how it lay, `toes_up`, as it carried alone. Another sole tells nothing of it: on a bevel no two lie alike.
     fn lifted_m(&self, side: Side, toes_up: f64, limit_rad: f64) -> f64 {
@@ -81,10 +74,8 @@ pub(crate) struct LegOdometry {
     toes_up: [f64; 2],
     /// The torso's origin in the odometry frame, m.
     pub(crate) torso_m: Vector3<f64>,
-    /// Feet that are told to stand, or to land, on a slope.
+    /// Feet that stand, or are to land, on a slope.
     pub(crate) on_slope: [bool; 2],
-    /// Feet that lay tilted when they carried most of the robot last.
-    lay_tilted: [bool; 2],
 }
 
 impl LegOdometry {
@@ -96,14 +87,7 @@ impl LegOdometry {
             toes_up: [0.0; 2],
             torso_m: Vector3::new(0.0, 0.0, 0.0),
             on_slope: [false; 2],
-            lay_tilted: [false; 2],
         }
-    }
-
-    /// Whether this foot stands, or is to land, on ground that is not level: as it was told, or as it lies.
-    pub(crate) const fn is_on_slope(&self, side: Side) -> bool {
-        let foot = side.index();
-        self.on_slope[foot] || self.lay_tilted[foot]
     }
 
     /// Whether both feet hold, on one level.
@@ -131,13 +115,7 @@ impl LegOdometry {
         contacts: &FootContacts,
         config: &ProprioceptionConfig,
     ) -> Pose<Odometry, Robot> {
-        let weights = contacts.weights(config);
-        for side in Side::BOTH {
-            if weights[side.index()] > 0.5 {
-                self.lay_tilted[side.index()] = legs.tilt_rad(side) > config.sole_tilt;
-            }
-        }
-        let level_m = self.place_torso(legs, weights);
+        let level_m = self.place_torso(legs, contacts.weights(config));
         self.renew_anchors(legs, contacts, config);
         let middle = self.torso_m + (legs.reach_m(Side::Left) + legs.reach_m(Side::Right)) / 2.0;
         Pose::from_yaw(middle.x, middle.y, level_m, legs.heading_rad())
@@ -181,7 +159,7 @@ impl LegOdometry {
         config: &ProprioceptionConfig,
     ) {
         // What two anchors differ by on level ground is the error of a tilt.
-        let level = !Side::BOTH.iter().any(|&side| self.is_on_slope(side));
+        let level = self.on_slope == [false; 2];
         let are_same = |a_m: f64, b_m: f64| (a_m - b_m).abs() < config.level_band && level;
         for side in Side::BOTH {
             if contacts.holds(side) && !contacts.holds(side.other()) {

@@ -204,7 +204,7 @@ impl Proprioception {
         self.state.stands_level = self.odometry.stands_level(&self.config);
         self.state.on_slope = Side::BOTH
             .into_iter()
-            .any(|side| self.contacts.holds(side) && self.odometry.is_on_slope(side));
+            .any(|side| self.contacts.holds(side) && self.odometry.on_slope[side.index()]);
         self.state.odometry_from_robot = odometry_from_robot;
         self.state.robot_from_torso =
             Pose::wrap(odometry_from_robot.inner.inverse() * odometry_from_torso);
