@@ -63,8 +63,8 @@ impl Failed {
         self.feet.len()
     }
 
-    /// Moves the ground under soles of this half length and breadth, m, that failed, out of reach from where they were to stand, of legs that climb so high, m:
-    /// down where there was none, up where something was in the way.
+    /// Moves the ground under soles of this half length and breadth, m, that failed, of legs that climb so high, m: out of
+    /// reach below where there was none, and to where nothing bears where something was in the way.
     pub(super) fn take_from(&self, map: &mut HeightMap, half_m: [f64; 2], rise_m: f64) {
         let out_of_reach_m = 2.0 * rise_m;
         for &[x_m, y_m] in &self.unseen_m {
@@ -83,13 +83,16 @@ impl Failed {
             self.feet.iter().filter(near).count() > 1
         };
         for (hold, misstep) in self.feet.iter().filter(|(hold, _)| again(hold)) {
-            let height_m = match misstep {
-                Misstep::NoGround => hold.height_m - out_of_reach_m,
-                // The body has room above it.
-                Misstep::Obstructed | Misstep::Buckled(_) => hold.height_m + rise_m,
-            };
             for cell in cells_under(map, &hold.pose, half_m) {
-                map.set(cell, height_m as f32, 0.0);
+                match misstep {
+                    Misstep::NoGround => {
+                        map.set(cell, (hold.height_m - out_of_reach_m) as f32, 0.0);
+                    }
+                    // Nothing bears there, from however high a foot comes, and the body has room above it.
+                    Misstep::Obstructed | Misstep::Buckled(_) => {
+                        map.set_blurred(cell, (hold.height_m + rise_m) as f32);
+                    }
+                }
             }
         }
     }
@@ -152,8 +155,11 @@ mod tests {
         let mut met = Failed::default();
         met.note(hold, Misstep::Obstructed);
         met.note(hold, Misstep::Obstructed);
-        // Too high for the legs, and not so high that the body has no room.
-        assert!((at(&map(&met), 0.5).unwrap() - 0.08).abs() < 1e-6);
+        // No foot stands there, and none goes through it; the body has room.
+        let met = map(&met);
+        assert_eq!(at(&met, 0.5), None);
+        let about_m = met.blurred_m(lattice.cell_at(0.5, 0.5)).unwrap();
+        assert!((about_m - 0.08).abs() < 1e-6);
         failed.note_unseen([0.2, 0.2]);
         assert_eq!(at(&map(&failed), 0.2), Some(HeightMap::BOTTOMLESS_M));
         assert_eq!(at(&map(&failed), 0.22), Some(0.03));
