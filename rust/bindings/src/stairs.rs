@@ -25,7 +25,7 @@ fn flat_fit(fit: EdgeFit) -> FlatFit {
 }
 
 /// (side, x m, y m, yaw rad, height m, bearing from m, bearing to m, manner, slope): `treadwell.protocols.Footstep`.
-pub(crate) type FlatFootstep = (String, f64, f64, f64, f64, f64, f64, String, [f64; 2]);
+pub(crate) type FlatFootstep = (String, f64, f64, f64, f64, f64, f64, String, (f64, f64));
 
 /// The steps that the feet are told to take; empty where they are told something else.
 pub(crate) fn flat_footsteps(motion: &Motion) -> Vec<FlatFootstep> {
@@ -43,7 +43,15 @@ fn flat_footstep(step: &Footstep) -> FlatFootstep {
     let (PlanarPose { x_m, y_m, yaw_rad }, [from_m, to_m]) = (step.pose, step.bearing_m);
     let height_m = step.height_m;
     (
-        side, x_m, y_m, yaw_rad, height_m, from_m, to_m, manner, step.slope,
+        side,
+        x_m,
+        y_m,
+        yaw_rad,
+        height_m,
+        from_m,
+        to_m,
+        manner,
+        step.slope.into(),
     )
 }
 
@@ -55,7 +63,7 @@ pub(crate) fn footstep(flat: FlatFootstep) -> Result<Footstep, String> {
         manner: self::manner(&manner)?,
         pose: PlanarPose { x_m, y_m, yaw_rad },
         height_m,
-        slope,
+        slope: slope.into(),
         bearing_m: [from_m, to_m],
     })
 }

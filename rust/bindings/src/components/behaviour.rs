@@ -124,7 +124,7 @@ fn read_motion(answer: &Bound<'_, PyAny>) -> PyResult<Motion> {
 }
 
 fn checked_footstep(flat: FlatFootstep) -> PyResult<Footstep> {
-    let (_, x_m, y_m, yaw_rad, height_m, from_m, to_m, _, [ahead, left]) = flat;
+    let (_, x_m, y_m, yaw_rad, height_m, from_m, to_m, _, (ahead, left)) = flat;
     let step = footstep(flat).map_err(PyValueError::new_err)?;
     let numbers = [x_m, y_m, yaw_rad, height_m, from_m, to_m, ahead, left];
     check_within("footsteps", numbers, LARGEST)?;
