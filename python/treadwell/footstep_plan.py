@@ -21,7 +21,7 @@ class PlannedFootstep:
         bearing_share: of the sole's area.
         manner: as the robot walks, or carefully, from a stand.
         time: that the step takes, s.
-        partial: what it costs that the sole bears in part, s.
+        partial: what it costs that the sole bears in part, or on uneven ground, s.
         margin: what it costs that not all of the ground beside it is known and within reach, s.
         turn: what it costs that the foot turns, s.
     """
